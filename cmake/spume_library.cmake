@@ -1,0 +1,28 @@
+# One static library per folder: spume_library(mesh SOURCES a.cpp b.cpp LINKS spume::base).
+# The list of LINKS is the picture of the layers; tests/architecture checks the includes against it.
+add_library(spume_flags INTERFACE)
+target_include_directories(spume_flags INTERFACE ${PROJECT_SOURCE_DIR})
+# GCC 12 raises -Wmaybe-uninitialized inside its own AVX-512 headers (its bug 105593).
+target_compile_options(spume_flags INTERFACE -Wall -Wextra -Wshadow -Wno-maybe-uninitialized)
+if(SPUME_NATIVE)
+  target_compile_options(spume_flags INTERFACE -march=native)
+endif()
+if(SPUME_WARNINGS_AS_ERRORS)
+  target_compile_options(spume_flags INTERFACE -Werror -Wconversion -Wno-sign-conversion)
+endif()
+if(SPUME_SANITIZE)
+  target_compile_options(spume_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
+  target_link_options(spume_flags INTERFACE -fsanitize=address,undefined)
+endif()
+
+function(spume_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  if(ARG_SOURCES)
+    add_library(spume_${name} STATIC ${ARG_SOURCES})
+    target_link_libraries(spume_${name} PUBLIC spume_flags ${ARG_LINKS} PRIVATE ${ARG_PRIVATE_LINKS})
+  else()
+    add_library(spume_${name} INTERFACE)
+    target_link_libraries(spume_${name} INTERFACE spume_flags ${ARG_LINKS} ${ARG_PRIVATE_LINKS})
+  endif()
+  add_library(spume::${name} ALIAS spume_${name})
+endfunction()

@@ -1,0 +1,138 @@
+#include "spume/config/assess.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "spume/config/text.hpp"
+#include "spume/simulation/cluster.hpp"
+
+namespace spume::config {
+
+namespace {
+
+using simulation::BubbleShape;
+using simulation::Case;
+
+double smallest_diameter(const std::vector<BubbleShape>& bubbles) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const auto& bubble : bubbles)
+    smallest = std::min({smallest, bubble.semi_axes.x, bubble.semi_axes.y, bubble.semi_axes.z});
+  return 2 * smallest;
+}
+
+double mean_diameter(const std::vector<BubbleShape>& bubbles) {
+  double sum = 0;
+  for (const auto& bubble : bubbles) sum += 2 * simulation::equivalent_radius(bubble);
+  return sum / static_cast<double>(bubbles.size());
+}
+
+/// The limits that hold all the time, and that of advection at the speed that tension gives the gas of a bubble,
+/// u² = 2σ / (ρ_g R).
+std::vector<flow::StepLimit> step_limits(const Case& run_case, double h, double diameter) {
+  const double speed = std::sqrt(4 * run_case.materials.film.surface_tension /
+                                 (run_case.materials.gas.density * diameter));
+  return {flow::capillary_limit(h, run_case.materials, run_case.rearrangement.capillary_factor),
+          {run_case.rearrangement.cfl * h / speed,
+           fmt::format("advection, where the gas moves at {:.2g} m/s as after a rupture", speed)}};
+}
+
+void warn_of_grid(Assessment& a) {
+  constexpr double enough_cells = 8;
+  if (a.smallest_diameter < enough_cells * a.h)
+    a.warnings.push_back(fmt::format("the smallest bubble is {:.1f} cells across; {} or more resolve its films",
+                                     a.smallest_diameter / a.h, enough_cells));
+}
+
+void warn_of_liquid(Assessment& a, const Case& run_case) {
+  constexpr double dry = 0.1, slender = 0.2;
+  if (a.liquid_fraction > dry)
+    a.warnings.push_back(fmt::format("the liquid fraction is {:.0f} %: the model is for dry foams, below {:.0f} %",
+                                     100 * a.liquid_fraction, 100 * dry));
+  if (a.border_radius > slender * a.smallest_diameter / 2)
+    a.warnings.push_back(
+        fmt::format("Plateau borders have a radius of {:.2g} m, {:.0f} % of that of the smallest bubble: the model "
+                    "takes them for thin lines, below {:.0f} %",
+                    a.border_radius, 200 * a.border_radius / a.smallest_diameter, 100 * slender));
+  if (run_case.rupture.threshold >= run_case.foam.lamella_half_thickness)
+    a.warnings.push_back("films start below the rupture threshold: they break at once");
+}
+
+void warn_of_pockets(Assessment& a, const Case& run_case) {
+  if (run_case.foam.cluster) return;  // a cluster shares its pockets among the bubbles around them
+  for (const auto& pocket : a.foam.pockets)
+    a.warnings.push_back(fmt::format("the bubbles enclose a pocket of the outside near [{:.3g}, {:.3g}, {:.3g}] m of "
+                                     "{:.2g} m³; it becomes a bubble of its own",
+                                     pocket.position.x, pocket.position.y, pocket.position.z, pocket.volume));
+}
+
+std::string bytes_text(double bytes) {
+  return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.1f} GB", bytes / 1e9);
+}
+
+std::string duration_text(double seconds) {
+  if (seconds < 60) return fmt::format("{:.2g} s", seconds);
+  if (seconds < 3600) return fmt::format("{:.0f} min", seconds / 60);
+  if (seconds < 48 * 3600) return fmt::format("{:.1f} h", seconds / 3600);
+  return fmt::format("{:.0f} days", seconds / 86400);
+}
+
+}  // namespace
+
+Assessment assess(const Case& run_case, const std::vector<BubbleShape>& bubbles) {
+  const grid::Box& box = run_case.box;
+  const state::Materials& materials = run_case.materials;
+  const double mu = materials.gas.viscosity;             // μ_g [Pa s]
+  const double rho = materials.gas.density;              // ρ_g [kg/m³]
+  const double sigma = materials.film.surface_tension;   // σ [N/m]
+  const double lambda = run_case.foam.border_area;       // λ [m²]
+
+  Assessment a{};
+  a.h = box.spacing();
+  a.n_cells = static_cast<double>(box.cells.i) * box.cells.j * box.cells.k;
+  a.n_bubbles = static_cast<int>(bubbles.size());
+  a.smallest_diameter = smallest_diameter(bubbles);
+  a.mean_diameter = mean_diameter(bubbles);
+  a.step_limits = step_limits(run_case, a.h, a.mean_diameter);
+  a.laplace_number = 2 * sigma * rho * a.mean_diameter / (mu * mu);
+  a.foam = estimate_foam(bubbles, box);
+  a.liquid_volume =
+      2 * run_case.foam.lamella_half_thickness * a.foam.film_area + lambda * a.foam.border_length;
+  a.liquid_fraction = a.liquid_volume / a.foam.gas_volume;
+  a.border_radius = std::sqrt(lambda / (std::numbers::sqrt3 - std::numbers::pi / 2));
+  estimate_cost(a);
+  warn_of_grid(a);
+  warn_of_liquid(a, run_case);
+  warn_of_pockets(a, run_case);
+  return a;
+}
+
+std::string report(const Assessment& a, const Case& run_case) {
+  const Index3& n = run_case.box.cells;
+  std::vector<std::vector<std::string>> rows{
+      {"grid", fmt::format("{} × {} × {} cells of h = {:.4g} m", n.i, n.j, n.k, a.h)},
+      {"bubbles", fmt::format("{}; the smallest is {:.3g} m across, {:.1f} h; the mean {:.3g} m", a.n_bubbles,
+                              a.smallest_diameter, a.smallest_diameter / a.h, a.mean_diameter)}};
+  for (const auto& limit : a.step_limits)
+    rows.push_back({"time step", fmt::format("≤ {:.3g} s  {}", limit.dt, limit.reason)});
+  rows.push_back({"", "viscosity sets no limit (Crank–Nicolson); drainage chooses its own steps"});
+  rows.push_back({"Laplace number", fmt::format("{:.3g} of the gas in the mean bubble", a.laplace_number)});
+  rows.push_back({"films", fmt::format("about {:.3g} m², borders about {:.3g} m, gas {:.3g} m³", a.foam.film_area,
+                                       a.foam.border_length, a.foam.gas_volume)});
+  rows.push_back({"liquid", fmt::format("about {:.2g} m³, {:.2g} % of the gas", a.liquid_volume,
+                                        100 * a.liquid_fraction)});
+  rows.push_back({"border radius", fmt::format("{:.3g} m, {:.1f} % of the radius of the smallest bubble",
+                                               a.border_radius, 200 * a.border_radius / a.smallest_diameter)});
+  const double dt = a.step_limits.front().dt;
+  rows.push_back({"memory", "about " + bytes_text(a.memory)});
+  rows.push_back({"cost", fmt::format("about {} of one core for each millisecond of rearrangement ({:.0f} steps of {})",
+                                      duration_text(1e-3 / dt * a.seconds_per_step), std::ceil(1e-3 / dt),
+                                      duration_text(a.seconds_per_step))});
+  std::string text = aligned(rows);
+  for (const auto& warning : a.warnings) text += "warning: " + warning + "\n";
+  return text;
+}
+
+}  // namespace spume::config

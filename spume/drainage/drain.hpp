@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "spume/state/film_network.hpp"
+#include "spume/state/materials.hpp"
+#include "spume/state/thin_point.hpp"
+
+namespace spume::drainage {
+
+struct DrainageParameters {
+  double max_time = 100;      ///< of one drainage stage [s]
+  double tolerance = 0.02;    ///< relative error of η and λ a step
+  double max_step = 10;       ///< [s]
+};
+
+enum class Ending { Ruptured, Drained, Stopped };
+
+struct DrainageOutcome {
+  Ending ending;
+  double elapsed;                 ///< [s] since the start of the stage
+  state::ThinPoint thinnest;      ///< where it ruptured or would rupture next
+  int n_steps, n_rejected;
+  double ledger_error;            ///< change of 2Σ∫η + Σ∫λ, relative
+};
+
+/// What happens after each accepted step; return false to stop (state is then the one just accepted).
+struct DrainageProgress {
+  double elapsed, step;           ///< [s]
+  int n_steps, n_rejected;
+  state::ThinPoint thinnest;
+  std::string limited_by;         ///< "error", "max_step", "first step", "rupture", …
+};
+using OnStep = std::function<bool(const DrainageProgress&, const state::FilmNetwork&)>;
+/// The rupture criterion: the thinnest point that counts (rupture/criterion.hpp makes one).
+using ThinnestPoint = std::function<state::ThinPoint(const state::FilmNetwork&)>;
+
+/// Drains the films until some η that the criterion sees falls below `threshold` [m] or the time is up.
+DrainageOutcome drain(state::FilmNetwork& network, const state::Materials& materials,
+                      const DrainageParameters& parameters, double threshold, const ThinnestPoint& thinnest,
+                      const OnStep& on_step);
+
+}  // namespace spume::drainage

@@ -1,0 +1,120 @@
+#include "spume/flow/navier_stokes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "spume/base/contract.hpp"
+#include "spume/base/error.hpp"
+#include "spume/flow/crank_nicolson.hpp"
+#include "spume/flow/godunov.hpp"
+#include "spume/flow/projection.hpp"
+
+namespace spume::flow {
+
+/// The parts of the scheme and their work arrays.
+struct NavierStokes::Implementation {
+  Implementation(const grid::Grid& on, const state::Gas& of, const FlowParameters& parameters)
+      : grid(on),
+        gas(of),
+        elliptic(on, parameters.elliptic, parameters.elliptic_tolerance),
+        godunov(on, parameters.limit_slopes),
+        projection(on, elliptic),
+        rate(on),
+        velocity(ghosted_vector(rate)),
+        force(velocity),
+        pressure(velocity[0]),
+        acceleration(block_vector(BlockLayout(on))) {}
+
+  void intermediate_rate(const state::GasFlow& flow, const grid::VectorField& body_force, double dt);
+
+  const grid::Grid& grid;
+  state::Gas gas;
+  grid::EllipticSolver elliptic;
+  Godunov godunov;
+  Projection projection;
+  grid::VectorField rate;  ///< (u* − uⁿ)/Δt, then (uⁿ⁺¹ − uⁿ)/Δt [m/s²]
+  GhostedVector velocity, force;
+  GhostedField pressure;
+  BlockVector acceleration;
+};
+
+NavierStokes::NavierStokes(const grid::Grid& grid, const state::Gas& gas, const FlowParameters& parameters)
+    : implementation_(std::make_unique<Implementation>(grid, gas, parameters)) {
+  expects(gas.density > 0 && gas.viscosity >= 0, "gas with positive density and no negative viscosity");
+}
+NavierStokes::~NavierStokes() = default;
+
+/// The rate of change (u* − uⁿ)/Δt towards the intermediate velocity, into `rate`. Collective.
+/// Paper: Sec. 3.2.1, Eq. (7).
+///   ρ ((u* − uⁿ)/Δt + (u·∇u)^{n+½}) = −∇p^{n−½} + μ ½(∇²u* + ∇²uⁿ) + st
+void NavierStokes::Implementation::intermediate_rate(const state::GasFlow& flow, const grid::VectorField& body_force,
+                                                     double dt) {
+  for (int c = 0; c < 3; ++c) {
+    velocity[c].update(flow.velocity[c]);
+    force[c].update(body_force[c]);
+  }
+  pressure.update(flow.pressure);
+  explicit_acceleration(grid, gas, velocity, pressure, force, acceleration);
+
+  godunov.predict_normals(velocity, acceleration, max_speed(flow), dt);
+  projection.clear_divergence(godunov.face_velocity());
+  godunov.advect(velocity, acceleration, dt, rate);
+
+  const BlockLayout layout(grid);
+  for (int c = 0; c < 3; ++c) {
+    const double* known = acceleration[c].first();
+    double* r = rate[c].values().data();
+    for_each_owned_row(layout, layout.owned(), [=](std::ptrdiff_t row, std::ptrdiff_t place, std::ptrdiff_t n) {
+#pragma GCC ivdep
+      for (std::ptrdiff_t i = 0; i < n; ++i) r[place + i] = known[row + i] - r[place + i];
+    });
+  }
+  diffuse_implicitly(elliptic, gas, dt, rate);
+}
+
+void NavierStokes::step(state::GasFlow& flow, const grid::VectorField& body_force, double dt) {
+  expects(dt > 0, "a positive time step");
+  Implementation& now = *implementation_;
+  now.intermediate_rate(flow, body_force, dt);
+  now.projection.project(now.gas.density, now.rate, flow.pressure);
+
+  for (int c = 0; c < 3; ++c) {
+    const std::span<const double> rate = now.rate[c].values();
+    const std::span<double> u = flow.velocity[c].values();
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] += dt * rate[i];
+  }
+  now.projection.filter(flow.velocity);
+  if (!std::isfinite(kinetic_energy(flow, now.gas.density)))
+    throw NumericalError("gas flow: the velocity is not finite after a step of " + std::to_string(dt) + " s");
+}
+
+StepLimit NavierStokes::advection_limit(const state::GasFlow& flow, double cfl) const {
+  const double speed = max_speed(flow);
+  const double dt = speed > 0 ? cfl * implementation_->grid.h() / speed : std::numeric_limits<double>::infinity();
+  return {dt, "advection"};
+}
+
+StepLimit capillary_limit(double h, const state::Materials& materials, double factor) {
+  const double rho = materials.gas.density;             // ρ [kg/m³]
+  const double sigma = materials.film.surface_tension;  // σ [N/m]
+  return {factor * std::sqrt(rho * h * h * h / (2 * sigma)), "capillary waves"};
+}
+
+double kinetic_energy(const state::GasFlow& flow, double density) {
+  double sum_of_squares = 0;
+  for (const grid::Field& component : flow.velocity.components)
+    for (const double u : component.values()) sum_of_squares += u * u;
+  const grid::Grid& grid = flow.pressure.grid();
+  return 0.5 * density * std::pow(grid.h(), 3) * grid.communicator().sum(sum_of_squares);
+}
+
+double max_speed(const state::GasFlow& flow) {
+  const std::span<const double> u = flow.velocity[0].values(), v = flow.velocity[1].values(),
+                                w = flow.velocity[2].values();
+  double largest = 0;
+  for (std::size_t i = 0; i < u.size(); ++i) largest = std::max(largest, u[i] * u[i] + v[i] * v[i] + w[i] * w[i]);
+  return std::sqrt(flow.pressure.grid().communicator().max(largest));
+}
+
+}  // namespace spume::flow

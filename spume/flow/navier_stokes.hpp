@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "spume/grid/elliptic.hpp"
+#include "spume/state/gas_flow.hpp"
+#include "spume/state/materials.hpp"
+
+namespace spume::flow {
+
+struct FlowParameters {
+  grid::EllipticBackend elliptic = grid::EllipticBackend::Trigonometric;
+  double elliptic_tolerance = 1e-10;  ///< of the multigrid backend
+  bool limit_slopes = true;           ///< off for convergence studies on smooth flows
+};
+
+/// A limit on the time step and why.
+struct StepLimit {
+  double dt;           ///< [s]
+  std::string reason;  ///< "advection", "capillary waves", …
+};
+
+/// Incompressible flow of the gas (paper Eq. (2)) by the projection method of Sec. 3.2.1: unsplit Godunov advection,
+/// Crank–Nicolson viscosity (7), second-order approximate projection of the increment (8).
+class NavierStokes {
+ public:
+  NavierStokes(const grid::Grid& grid, const state::Gas& gas, const FlowParameters& parameters);
+  ~NavierStokes();
+
+  /// Advances `flow` by dt under a body force density [N/m³]. Collective.
+  /// Throws NumericalError when the result is not finite.
+  void step(state::GasFlow& flow, const grid::VectorField& body_force, double dt);
+
+  /// dt ≤ cfl h / max|u|. Collective.
+  StepLimit advection_limit(const state::GasFlow& flow, double cfl) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// dt ≤ C sqrt(ρ h³ / (2σ)): capillary waves of the shortest length that the kernel lets through, C = 0.8.
+StepLimit capillary_limit(double h, const state::Materials& materials, double factor = 0.8);
+
+/// ∫ ½ρ|u|² [J]. Collective.
+double kinetic_energy(const state::GasFlow& flow, double density);
+/// max |u| [m/s]. Collective.
+double max_speed(const state::GasFlow& flow);
+
+}  // namespace spume::flow

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "spume/grid/field.hpp"
+#include "spume/grid/kernel_coupling.hpp"
+#include "spume/mesh/film_mesh.hpp"
+#include "spume/mesh/topology.hpp"
+#include "spume/state/materials.hpp"
+
+namespace spume::flow {
+
+/// Film forces as the gas feels them.
+struct FilmForces {
+  std::vector<Vec3> on_vertex;     ///< what is left after the pressure part is taken out [N]
+  std::vector<double> pressure;    ///< P_i of each phase, relative to the outside [Pa]
+};
+
+/// F_v = −2σ ∂A/∂x_v (every film once), less its pure-pressure part Σ_i P_i ∂V_i/∂x_v.
+FilmForces film_forces(const mesh::FilmMesh& films, const mesh::Topology& topology, int n_phases,
+                       double surface_tension);
+
+/// st_ζ of the paper's (7): the remaining vertex forces spread by the kernel [N/m³]. Overwrites `density`.
+void spread_film_forces(const mesh::FilmMesh& films, const FilmForces& forces, const grid::KernelCoupling& kernel,
+                        grid::VectorField& density);
+
+}  // namespace spume::flow

@@ -1,0 +1,155 @@
+#include "spume/grid/field.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "spume/base/contract.hpp"
+#include "spume/grid/implementation.hpp"
+
+namespace spume::grid {
+
+namespace {
+
+constexpr int max_ghost_width = 4;  // the thinnest slab
+
+/// The shape of a buffer with ghosts, and the distance between neighbours along each axis.
+struct GhostedShape {
+  GhostedShape(const Grid& grid, int width_)
+      : width(width_),
+        inner{grid.cells().i, grid.cells().j, grid.z_end() - grid.z_begin()},
+        outer{inner.i + 2 * width_, inner.j + 2 * width_, inner.k + 2 * width_},
+        stride{1, outer.i, static_cast<std::ptrdiff_t>(outer.i) * outer.j} {}
+
+  std::size_t size() const { return static_cast<std::size_t>(stride[2]) * outer.k; }
+
+  int width;
+  Index3 inner, outer;
+  std::array<std::ptrdiff_t, 3> stride;
+};
+
+/// Sets the plane `to` across `axis` (counted in the buffer, ghosts included) to `sign` times the plane `from`.
+void copy_plane(const GhostedShape& shape, int axis, int to, int from, double sign, double* buffer) {
+  double* target = buffer + to * shape.stride[axis];
+  const double* source = buffer + from * shape.stride[axis];
+  // Planes across z are contiguous, planes across y are rows of each layer, planes across x are columns.
+  const std::ptrdiff_t run = axis == 0 ? 1 : axis == 1 ? shape.stride[1] : shape.stride[2];
+  const std::ptrdiff_t step = axis == 0 ? shape.stride[1] : shape.stride[2];
+  const int repeats = axis == 0 ? shape.outer.j * shape.outer.k : axis == 1 ? shape.outer.k : 1;
+  for (int r = 0; r < repeats; ++r, target += step, source += step)
+    for (std::ptrdiff_t m = 0; m < run; ++m) target[m] = sign * source[m];
+}
+
+enum class Side { Lower, Upper };
+
+/// Mirror images beyond a wall, over the whole extent of the other axes, their ghosts included: filling the axes one
+/// after another therefore fills edges and corners too.
+void mirror(const GhostedShape& shape, int axis, Side side, Parity parity, double* buffer) {
+  const int w = shape.width, n = shape.inner[axis];  // inner planes are w … w+n−1
+  const double sign = parity == Parity::Odd ? -1.0 : 1.0;
+  for (int g = 0; g < w; ++g) {
+    if (side == Side::Lower) copy_plane(shape, axis, w - 1 - g, w + g, sign, buffer);
+    else copy_plane(shape, axis, w + n + g, w + n - 1 - g, sign, buffer);
+  }
+}
+
+/// Owned cells, ghosts from other ranks and periodic images, by PETSc; ghosts beyond walls stay unset.
+void exchange_by_petsc(const Field& f, int width, double* buffer) {
+  using parallel::petsc_check;
+  GhostExchange& exchange = ghost_exchange(f.grid(), width);
+  const Vec owned_values = exchange.owned.get();
+  const Vec ghosted_values = exchange.ghosted.get();
+  petsc_check(VecPlaceArray(owned_values, f.values().data()));
+  petsc_check(VecPlaceArray(ghosted_values, buffer));
+  petsc_check(DMGlobalToLocalBegin(exchange.dm.get(), owned_values, INSERT_VALUES, ghosted_values));
+  petsc_check(DMGlobalToLocalEnd(exchange.dm.get(), owned_values, INSERT_VALUES, ghosted_values));
+  petsc_check(VecResetArray(owned_values));
+  petsc_check(VecResetArray(ghosted_values));
+}
+
+}  // namespace
+
+Symmetry velocity_symmetry(const Box& box, int component) {
+  Symmetry symmetry = even_symmetry;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Boundary boundary = box.boundary[axis];
+    if (boundary == Boundary::Wall || (boundary == Boundary::Slip && axis == component))
+      symmetry[axis] = Parity::Odd;
+  }
+  return symmetry;
+}
+
+VectorField::VectorField(const Grid& grid)
+    : components{Field(grid, velocity_symmetry(grid.box(), 0)), Field(grid, velocity_symmetry(grid.box(), 1)),
+                 Field(grid, velocity_symmetry(grid.box(), 2))} {}
+
+void exchange_ghosts(const Field& f, int width, std::vector<double>& buffer) {
+  expects(width >= 1 && width <= max_ghost_width, "1 to 4 layers of ghosts");
+  const Grid& grid = f.grid();
+  const GhostedShape shape(grid, width);
+  buffer.resize(shape.size());
+  exchange_by_petsc(f, width, buffer.data());
+  for (int axis = 0; axis < 3; ++axis) {
+    if (grid.box().boundary[axis] == Boundary::Periodic) continue;
+    const bool at_lower = axis != 2 || grid.z_begin() == 0;
+    const bool at_upper = axis != 2 || grid.z_end() == grid.cells().k;
+    if (at_lower) mirror(shape, axis, Side::Lower, f.symmetry()[axis], buffer.data());
+    if (at_upper) mirror(shape, axis, Side::Upper, f.symmetry()[axis], buffer.data());
+  }
+}
+
+std::vector<double> gather(const Field& f) {
+  const Grid& grid = f.grid();
+  const parallel::Communicator& communicator = grid.communicator();
+  expects(grid.total_size() <= static_cast<std::size_t>(std::numeric_limits<int>::max()),
+          "a gathered field has at most 2^31 - 1 cells");
+  const int layer = grid.cells().i * grid.cells().j;
+  std::vector<int> counts(communicator.size()), offsets(communicator.size());
+  const int count = static_cast<int>(grid.owned_size());
+  const int offset = layer * grid.z_begin();
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator.handle());
+  MPI_Allgather(&offset, 1, MPI_INT, offsets.data(), 1, MPI_INT, communicator.handle());
+  std::vector<double> whole(grid.total_size());
+  MPI_Allgatherv(f.values().data(), count, MPI_DOUBLE, whole.data(), counts.data(), offsets.data(), MPI_DOUBLE,
+                 communicator.handle());
+  return whole;
+}
+
+void scatter(std::span<const double> whole, Field& f) {
+  const Grid& grid = f.grid();
+  expects(whole.size() == grid.total_size(), "scatter takes all cells of the box");
+  const std::size_t layer = static_cast<std::size_t>(grid.cells().i) * grid.cells().j;
+  std::copy_n(whole.begin() + static_cast<std::ptrdiff_t>(layer * grid.z_begin()), grid.owned_size(),
+              f.values().begin());
+}
+
+double sum(const Field& f) {
+  const Grid& grid = f.grid();
+  const Index3 n = grid.cells();
+  // One number a layer, added in the order of the layers: the same to the last bit on any number of ranks.
+  std::vector<double> of_layer(n.k, 0.0);
+  const double* row = f.values().data();
+  for (int k = grid.z_begin(); k < grid.z_end(); ++k)
+    for (int j = 0; j < n.j; ++j, row += n.i) {
+      double of_row = 0;
+      for (int i = 0; i < n.i; ++i) of_row += row[i];
+      of_layer[k] += of_row;
+    }
+  grid.communicator().sum(of_layer);
+  double total = 0;
+  for (const double value : of_layer) total += value;
+  return total;
+}
+
+double max_abs(const Field& f) {
+  double largest = 0;
+  for (const double value : f.values()) {
+    const double size = std::abs(value);
+    if (!(size <= largest)) largest = std::isnan(size) ? std::numeric_limits<double>::infinity() : size;
+  }
+  return f.grid().communicator().max(largest);
+}
+
+}  // namespace spume::grid

@@ -1,0 +1,142 @@
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "spume/base/error.hpp"
+#include "spume/base/random.hpp"
+#include "spume/grid/loops.hpp"
+#include "spume/interface/clearance.hpp"
+#include "spume/interface/find_films.hpp"
+#include "spume/interface/potentials.hpp"
+#include "spume/interface/reconstruct.hpp"
+#include "spume/mesh/measure.hpp"
+#include "spume/mesh/volume_constraint.hpp"
+
+namespace spume::interface {
+
+namespace {
+
+using Potential = std::function<double(mesh::Phase, const Vec3&)>;
+
+/// The phase with the largest potential at every cell. Collective.
+std::vector<mesh::Phase> winners_of(const grid::Grid& grid, const Potential& potential, int n_phases) {
+  grid::Field winner(grid);
+  auto value = grid::owned(winner);
+  grid::for_each_cell(grid, [&](int i, int j, int k) {
+    const Vec3 x = grid.centre(i, j, k);
+    mesh::Phase best = 0;
+    double largest = potential(0, x);
+    for (mesh::Phase p = 1; p < n_phases; ++p) {
+      const double v = potential(p, x);
+      if (v <= largest) continue;
+      largest = v;
+      best = p;
+    }
+    value(i, j, k) = best;
+  });
+  const std::vector<double> whole = grid::gather(winner);
+  return {whole.begin(), whole.end()};
+}
+
+/// Samples of the functions around the cells that each phase wins, with noise of 1e-7 h, which breaks the exact ties of
+/// symmetric starts.
+PhasePotentials sample(const grid::Grid& grid, const Potential& potential, int n_phases) {
+  constexpr int reach = 6;
+  const double noise = 1e-7 * grid.h();
+  const std::vector<mesh::Phase> winner = winners_of(grid, potential, n_phases);
+  std::vector<CellBox> cells(n_phases, no_cells());
+  std::size_t n = 0;
+  for_each_cell(all_cells(grid.cells()), [&](int i, int j, int k) { cells[winner[n++]].include(i, j, k); });
+  PhasePotentials potentials(grid.box());
+  for (mesh::Phase p = 0; p < n_phases; ++p) {
+    if (p > 0 && cells[p].empty()) continue;
+    Random random(static_cast<std::uint64_t>(p));
+    PhaseField field{p, p == 0 ? all_cells(grid.cells()) : grown(cells[p], reach, grid.cells()),
+                     -std::numeric_limits<double>::max(), {}};
+    field.value.reserve(field.cells.size());
+    for_each_cell(field.cells, [&](int i, int j, int k) {
+      field.value.push_back(potential(p, grid.centre(i, j, k)) + noise * random.uniform(-0.5, 0.5));
+    });
+    potentials.set(std::move(field));
+  }
+  return potentials;
+}
+
+/// Moves film vertices onto the tie of the functions themselves by Newton's method: linear interpolation between cells
+/// leaves curved films inside. Vertices of borders stay, and those that would move far.
+void project_on_functions(const Potential& potential, const mesh::Topology& topology, double h, int n_functions,
+                          mesh::FilmMesh& films) {
+  constexpr int n_iterations = 4;
+  const double step = 1e-3 * h;
+  for (int v = 0; v < films.n_vertices(); ++v) {
+    const mesh::PhaseSet& phases = topology.vertex_phases[v];
+    // Phases born by separate_pieces() have no function.
+    if (phases.size() != 2 || phases[1] >= n_functions) continue;
+    const auto difference = [&](const Vec3& x) { return potential(phases[0], x) - potential(phases[1], x); };
+    Vec3 x = films.position[v];
+    for (int n = 0; n < n_iterations; ++n) {
+      Vec3 gradient;
+      for (int d = 0; d < 3; ++d) {
+        Vec3 up = x, down = x;
+        up[d] += step;
+        down[d] -= step;
+        gradient[d] = (difference(up) - difference(down)) / (2 * step);
+      }
+      const double g2 = norm_squared(gradient);
+      if (g2 > 0) x -= difference(x) / g2 * gradient;
+    }
+    if (norm(x - films.position[v]) < 0.5 * h) films.position[v] = x;
+  }
+}
+
+/// Reports of two passes as one: what was done adds up, what is left is that of the last.
+void append(ReconstructReport& report, ReconstructReport&& next) {
+  next.changes.insert(next.changes.begin(), report.changes.begin(), report.changes.end());
+  report = std::move(next);
+}
+
+}  // namespace
+
+Reconstruction construct(const grid::Grid& grid, const Potential& potential, state::Phases& phases,
+                         const ReconstructParameters& parameters) {
+  const double h = grid.h(), edge = parameters.smallest_bubble_cells * h, smallest_volume = edge * edge * edge;
+  const int n_functions = phases.count();
+  const std::vector<double> wanted = phases.target_volume;
+
+  PhasePotentials start = sample(grid, potential, n_functions);
+  ReconstructReport report;
+  // All phases count as alive here; their targets are the volumes found.
+  FoundFilms found = find_films(start, phases, smallest_volume, report.changes);
+  project_on_functions(potential, found.topology, h, n_functions, found.films);
+  if (const auto problem = clearance_problem(grid, found.films); !problem.empty()) throw InputError(problem);
+  const std::vector<double> volume = mesh::phase_volumes(found.films, phases.count());
+  std::copy(volume.begin() + 1, volume.end(), phases.target_volume.begin() + 1);
+  for (auto& change : report.changes)
+    if (change.other != change.phase) change.volume = volume[change.other];
+
+  for (mesh::Phase p = 1; p < n_functions; ++p)
+    if (!start.find(p)) report.changes.push_back({ReconstructReport::PhaseChange::Kind::Lost, p, 0, 0.0});
+
+  Reconstruction result{std::move(found.films), std::move(report), nullptr};
+  for (int pass = 0; pass < 2; ++pass) {
+    Reconstruction next = reconstruct(grid, result.films, phases, parameters);
+    append(result.report, std::move(next.report));
+    result.films = std::move(next.films);
+    result.potentials = std::move(next.potentials);
+  }
+  bool any_wanted = false;
+  for (mesh::Phase p = 1; p < n_functions; ++p) {
+    const bool split = std::any_of(result.report.changes.begin(), result.report.changes.end(), [&](const auto& c) {
+      return c.phase == p && c.kind == ReconstructReport::PhaseChange::Kind::Split;
+    });
+    if (!(wanted[p] > 0) || !phases.alive(p) || split) continue;
+    phases.target_volume[p] = wanted[p];
+    any_wanted = true;
+  }
+  if (any_wanted && parameters.conserve_volumes)
+    result.report.largest_volume_displacement = mesh::restore_volumes(result.films, phases.target_volume, 3, 0.2 * h);
+  return result;
+}
+
+}  // namespace spume::interface

@@ -1,0 +1,334 @@
+#include "spume/interface/contour.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <unordered_map>
+
+#include "spume/base/error.hpp"
+
+namespace spume::interface {
+
+namespace {
+
+constexpr int max_candidates = 24;
+constexpr int max_corners = 4 + max_candidates;
+
+/// The six ways from a cube's lowest to its highest corner, one axis at a time: the Kuhn tetrahedra. The first three are
+/// even permutations, whose tetrahedra are positively oriented.
+constexpr std::array<std::array<int, 3>, 6> axis_orders{
+    {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
+
+/// A corner of a film's polygon in a tetrahedron, and the side to the next corner: 0 … 3 the face of the tetrahedron
+/// opposite that corner of it, 4 + c the clipping by candidate c.
+struct Corner {
+  std::array<double, 4> weight;
+  int side;
+};
+struct Polygon {
+  std::array<Corner, max_corners> corner;
+  int n = 0;
+  bool reversed = false;
+};
+
+struct VertexKey {
+  std::uint64_t simplex;              ///< lowest lattice point and chain of steps
+  std::array<mesh::Phase, 4> phases;  ///< increasing, filled up with −1
+  bool operator==(const VertexKey&) const = default;
+};
+struct VertexKeyHash {
+  std::size_t operator()(const VertexKey& key) const {
+    std::uint64_t hash = key.simplex * 0x9E3779B97F4A7C15ull;
+    for (mesh::Phase p : key.phases) hash = (hash ^ (hash >> 29) ^ static_cast<std::uint64_t>(p + 1)) * 0xBF58476D1CE4E5B9ull;
+    return hash ^ (hash >> 32);
+  }
+};
+
+/// Number of pairs out of order: its parity is that of the permutation.
+bool is_odd(const std::array<int, 4>& order) {
+  int inversions = 0;
+  for (int a = 0; a < 4; ++a)
+    for (int b = a + 1; b < 4; ++b) inversions += order[a] > order[b];
+  return inversions & 1;
+}
+
+/// Which fields may be candidates where: those whose cells meet each block of 8³ cells.
+class FieldBins {
+ public:
+  explicit FieldBins(const PhasePotentials& potentials) {
+    const Index3 cells = potentials.box().cells;
+    for (int d = 0; d < 3; ++d) n_[d] = (cells[d] + edge - 1) / edge;
+    fields_.resize(static_cast<std::size_t>(n_.i) * n_.j * n_.k);
+    for (const auto& field : potentials.fields()) {
+      if (field.cells.empty()) continue;
+      const CellBox &c = field.cells;
+      const CellBox blocks{{c.begin.i / edge, c.begin.j / edge, c.begin.k / edge},
+                           {(c.end.i - 1) / edge + 1, (c.end.j - 1) / edge + 1, (c.end.k - 1) / edge + 1}};
+      for_each_cell(blocks, [&](int i, int j, int k) {
+        fields_[(static_cast<std::size_t>(k) * n_.j + j) * n_.i + i].push_back(&field);
+      });
+    }
+  }
+  const std::vector<const PhaseField*>& at(int i, int j, int k) const {
+    return fields_[(static_cast<std::size_t>(k / edge) * n_.j + j / edge) * n_.i + i / edge];
+  }
+
+ private:
+  static constexpr int edge = 8;
+  Index3 n_;
+  std::vector<std::vector<const PhaseField*>> fields_;
+};
+
+class Contourer {
+ public:
+  Contourer(const PhasePotentials& potentials, const std::vector<mesh::Phase>& winner)
+      : potentials_(potentials), winner_(winner), bins_(potentials), whole_(all_cells(potentials.box().cells)) {}
+
+  mesh::FilmMesh run() {
+    CellBox cubes = whole_;
+    for (int d = 0; d < 3; ++d) --cubes.end[d];
+    for_each_cell(cubes, [&](int i, int j, int k) {
+      read_winners(i, j, k);
+      bool uniform = true;
+      for (int c = 1; c < 8; ++c) uniform = uniform && cube_winner_[c] == cube_winner_[0];
+      if (!uniform) contour_cube(i, j, k);
+    });
+    return std::move(films_);
+  }
+
+ private:
+  void read_winners(int i, int j, int k) {
+    for (int c = 0; c < 8; ++c) cube_winner_[c] = winner_[lattice_point(i, j, k, c)];
+  }
+  std::size_t lattice_point(int i, int j, int k, int corner) const {
+    return whole_.offset(i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2));
+  }
+
+  void contour_cube(int i, int j, int k) {
+    find_candidates(i, j, k);
+    cube_ = {i, j, k};
+    for (int t = 0; t < 6; ++t) {
+      const auto& axis = axis_orders[t];
+      mask_ = {0, 1 << axis[0], (1 << axis[0]) | (1 << axis[1]), 7};
+      const mesh::Phase w = cube_winner_[0];
+      if (cube_winner_[mask_[1]] == w && cube_winner_[mask_[2]] == w && cube_winner_[7] == w) continue;
+      positive_ = t < 3;
+      find_tetrahedron_candidates();
+      for (int a = 0; a < n_; ++a)
+        for (int b = a + 1; b < n_; ++b) contour_film(a, b);
+    }
+  }
+
+  /// Phases with values at all eight corners that no winner beats at all of them.
+  void find_candidates(int i, int j, int k) {
+    n_cube_ = 0;
+    for (const PhaseField* field : bins_.at(i, j, k)) {
+      if (!field->cells.contains(i, j, k) || !field->cells.contains(i + 1, j + 1, k + 1)) continue;
+      if (n_cube_ == max_candidates) throw NumericalError("more than 24 phases compete for one cell");
+      auto& value = cube_value_[n_cube_];
+      for (int c = 0; c < 8; ++c)
+        value[c] = field->value[field->cells.offset(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2))];
+      cube_phase_[n_cube_++] = field->phase;
+    }
+    std::array<bool, max_candidates> wins{}, beaten{};
+    for (int a = 0; a < n_cube_; ++a)
+      for (int c = 0; c < 8; ++c) wins[a] = wins[a] || cube_winner_[c] == cube_phase_[a];
+    for (int a = 0; a < n_cube_; ++a)
+      for (int w = 0; w < n_cube_ && !beaten[a]; ++w) {
+        if (w == a || !wins[w]) continue;
+        beaten[a] = true;
+        for (int c = 0; c < 8; ++c) beaten[a] = beaten[a] && cube_value_[a][c] < cube_value_[w][c];
+      }
+    int n = 0;
+    for (int a = 0; a < n_cube_; ++a) {
+      if (beaten[a]) continue;
+      cube_phase_[n] = cube_phase_[a];
+      cube_value_[n++] = cube_value_[a];
+    }
+    n_cube_ = n;
+  }
+
+  /// The same for the four corners of a tetrahedron.
+  void find_tetrahedron_candidates() {
+    n_ = 0;
+    for (int a = 0; a < n_cube_; ++a) {
+      bool beaten = false;
+      for (int w = 0; w < n_cube_ && !beaten; ++w) {
+        if (w == a) continue;
+        bool wins = false, below = true;
+        for (int m : mask_) {
+          wins = wins || cube_winner_[m] == cube_phase_[w];
+          below = below && cube_value_[a][m] < cube_value_[w][m];
+        }
+        beaten = wins && below;
+      }
+      if (beaten) continue;
+      for (int c = 0; c < 4; ++c) value_[n_][c] = cube_value_[a][mask_[c]];
+      phase_[n_++] = cube_phase_[a];
+    }
+  }
+
+  void contour_film(int a, int b) {
+    Polygon polygon;
+    if (!cut(a, b, polygon)) return;
+    for (int c = 0; c < n_ && polygon.n > 0; ++c)
+      if (c != a && c != b) clip(a, b, c, polygon);
+    if (polygon.n >= 3) triangulate(a, b, polygon);
+  }
+
+  /// {ψ_a = ψ_b} in the tetrahedron: a triangle or a quadrilateral, its normal from a to b. Ties go to a.
+  bool cut(int a, int b, Polygon& polygon) const {
+    std::array<double, 4> d;
+    std::array<bool, 4> is_a;
+    int n_a = 0;
+    for (int c = 0; c < 4; ++c) {
+      d[c] = value_[a][c] - value_[b][c];
+      is_a[c] = d[c] >= 0;
+      n_a += is_a[c];
+    }
+    if (n_a == 0 || n_a == 4) return false;
+    const auto crossing = [&](int from, int to, int side) {
+      Corner corner{{}, side};
+      const double s = d[from] == d[to] ? 0.5 : d[from] / (d[from] - d[to]);
+      corner.weight[from] = 1 - s;
+      corner.weight[to] = s;
+      return corner;
+    };
+    std::array<int, 4> o;
+    int filled = 0;
+    // One corner against three: the lonely one first; two against two: those of a first.
+    const bool first_side = n_a != 3;
+    for (int c = 0; c < 4; ++c)
+      if (is_a[c] == first_side) o[filled++] = c;
+    for (int c = 0; c < 4; ++c)
+      if (is_a[c] != first_side) o[filled++] = c;
+    polygon.reversed = positive_ == is_odd(o);
+    if (n_a == 2) {
+      polygon.n = 4;
+      polygon.corner[0] = crossing(o[0], o[2], o[1]);
+      polygon.corner[1] = crossing(o[0], o[3], o[2]);
+      polygon.corner[2] = crossing(o[1], o[3], o[0]);
+      polygon.corner[3] = crossing(o[1], o[2], o[3]);
+    } else {
+      polygon.n = 3;
+      if (n_a == 3) polygon.reversed = !polygon.reversed;
+      polygon.corner[0] = crossing(o[0], o[1], o[3]);
+      polygon.corner[1] = crossing(o[0], o[2], o[1]);
+      polygon.corner[2] = crossing(o[0], o[3], o[2]);
+    }
+    return true;
+  }
+
+  /// Keeps the part of the polygon where ½(ψ_a + ψ_b) ≥ ψ_c.
+  void clip(int a, int b, int c, Polygon& polygon) const {
+    std::array<double, max_corners> excess;
+    bool any_below = false;
+    for (int m = 0; m < polygon.n; ++m) {
+      excess[m] = 0;
+      for (int v = 0; v < 4; ++v)
+        excess[m] += polygon.corner[m].weight[v] * (0.5 * (value_[a][v] + value_[b][v]) - value_[c][v]);
+      any_below = any_below || excess[m] < 0;
+    }
+    if (!any_below) return;
+    std::array<Corner, max_corners> kept;
+    int n = 0;
+    for (int m = 0; m < polygon.n; ++m) {
+      const int next = (m + 1) % polygon.n;
+      const bool in = excess[m] >= 0, next_in = excess[next] >= 0;
+      if (in) kept[n++] = polygon.corner[m];
+      if (in == next_in) continue;
+      const double s = excess[m] / (excess[m] - excess[next]);
+      Corner corner;
+      for (int v = 0; v < 4; ++v)
+        corner.weight[v] = (1 - s) * polygon.corner[m].weight[v] + s * polygon.corner[next].weight[v];
+      corner.side = in ? 4 + c : polygon.corner[m].side;
+      kept[n++] = corner;
+    }
+    polygon.n = n;
+    std::copy(kept.begin(), kept.begin() + n, polygon.corner.begin());
+  }
+
+  void triangulate(int a, int b, const Polygon& polygon) {
+    std::array<int, max_corners> v;
+    int n = 0;
+    for (int m = 0; m < polygon.n; ++m) {
+      const int next = vertex(a, b, polygon, m);
+      if (n == 0 || next != v[n - 1]) v[n++] = next;
+    }
+    while (n > 1 && v[n - 1] == v[0]) --n;
+    if (n < 3) return;
+    if (polygon.reversed) std::reverse(v.begin(), v.begin() + n);
+    const auto add = [&](int p, int q, int r) { films_.triangle.push_back({{p, q, r}, phase_[a], phase_[b]}); };
+    for (; n > 3; --n) {
+      int ear = 0;
+      double shortest = -1;
+      for (int m = 0; m < n; ++m) {
+        const double l = norm_squared(films_.position[v[(m + 1) % n]] - films_.position[v[(m + n - 1) % n]]);
+        if (shortest >= 0 && l >= shortest) continue;
+        shortest = l;
+        ear = m;
+      }
+      add(v[(ear + n - 1) % n], v[ear], v[(ear + 1) % n]);
+      std::copy(v.begin() + ear + 1, v.begin() + n, v.begin() + ear);
+    }
+    add(v[0], v[1], v[2]);
+  }
+
+  /// Number of the vertex at a corner of the polygon; a new one unless its key is known.
+  int vertex(int a, int b, const Polygon& polygon, int corner) {
+    unsigned in_simplex = 15;
+    mesh::PhaseSet phases{phase_[a], phase_[b]};
+    for (int m : {(corner + polygon.n - 1) % polygon.n, corner}) {
+      const int side = polygon.corner[m].side;
+      if (side < 4) in_simplex &= ~(1u << side);
+      else phases.insert(phase_[side - 4]);
+    }
+    const int lowest = std::countr_zero(in_simplex);
+    std::uint64_t chain = 0;
+    int n_steps = 0;
+    for (int c = lowest + 1; c < 4; ++c)
+      if (in_simplex >> c & 1) chain |= static_cast<std::uint64_t>(mask_[c] ^ mask_[lowest]) << (3 * n_steps++);
+    VertexKey key{lattice_point(cube_.i, cube_.j, cube_.k, mask_[lowest]) << 9 | chain, {-1, -1, -1, -1}};
+    std::copy(phases.begin(), phases.end(), key.phases.begin());
+    const auto [known, is_new] = vertex_of_.try_emplace(key, films_.n_vertices());
+    if (is_new) films_.position.push_back(position(polygon.corner[corner]));
+    return known->second;
+  }
+
+  Vec3 position(const Corner& corner) const {
+    Vec3 place{cube_.i + 0.5, cube_.j + 0.5, cube_.k + 0.5};
+    for (int c = 0; c < 4; ++c)
+      for (int d = 0; d < 3; ++d)
+        if (mask_[c] >> d & 1) place[d] += corner.weight[c];
+    return potentials_.box().lower + potentials_.h() * place;
+  }
+
+  const PhasePotentials& potentials_;
+  const std::vector<mesh::Phase>& winner_;
+  FieldBins bins_;
+  CellBox whole_;
+  mesh::FilmMesh films_;
+  std::unordered_map<VertexKey, int, VertexKeyHash> vertex_of_;
+
+  // of the cube
+  Index3 cube_;
+  std::array<mesh::Phase, 8> cube_winner_;
+  int n_cube_ = 0;
+  std::array<mesh::Phase, max_candidates> cube_phase_;
+  std::array<std::array<double, 8>, max_candidates> cube_value_;
+  // of the tetrahedron
+  std::array<int, 4> mask_;  ///< corners of the cube along the chain
+  bool positive_ = true;
+  int n_ = 0;
+  std::array<mesh::Phase, max_candidates> phase_;
+  std::array<std::array<double, 4>, max_candidates> value_;
+};
+
+}  // namespace
+
+mesh::FilmMesh contour(const PhasePotentials& potentials, const std::vector<mesh::Phase>& winner) {
+  return Contourer(potentials, winner).run();
+}
+
+}  // namespace spume::interface

@@ -1,0 +1,74 @@
+#include "spume/interface/find_films.hpp"
+
+#include <utility>
+
+#include "spume/base/random.hpp"
+#include "spume/interface/contour.hpp"
+
+namespace spume::interface {
+
+namespace {
+
+/// Winners of potentials whose phases are single pieces.
+Winners separated(PhasePotentials& potentials, state::Phases& phases, double smallest_volume,
+                  std::vector<PhaseChange>& changes) {
+  constexpr int max_rounds = 4;
+  Winners winners = find_winners(potentials);
+  for (int n = 0; n < max_rounds && separate_pieces(potentials, winners, phases, smallest_volume, changes); ++n)
+    winners = find_winners(potentials);
+  return winners;
+}
+
+/// Adds noise of the given amplitude [m] to all potentials where the two largest are within four cells.
+void perturb_ties(PhasePotentials& potentials, const Winners& winners, double amplitude, std::uint64_t seed) {
+  Random random(seed);
+  const CellBox whole = all_cells(potentials.box().cells);
+  const double near = 4 * potentials.h();
+  std::vector<mesh::Phase> phases;
+  for (const auto& field : potentials.fields()) phases.push_back(field.phase);
+  for (mesh::Phase p : phases) {
+    PhaseField& field = *potentials.find(p);
+    std::size_t n = 0;
+    for_each_cell(field.cells, [&](int i, int j, int k) {
+      const std::size_t cell = whole.offset(i, j, k);
+      double& value = field.value[n++];
+      if (winners.first[cell] - winners.second[cell] < near) value += amplitude * random.uniform(-0.5, 0.5);
+    });
+  }
+}
+
+}  // namespace
+
+FoundFilms find_films(PhasePotentials& potentials, state::Phases& phases, double smallest_volume,
+                      std::vector<PhaseChange>& changes) {
+  constexpr int max_retries = 3;
+  const std::size_t first_change = changes.size();
+  double amplitude = 1e-9 * potentials.h();
+  FoundFilms found;
+  for (int retry = 0;; ++retry) {
+    const Winners winners = separated(potentials, phases, smallest_volume, changes);
+    found.films = contour(potentials, winners.phase);
+    found.topology = mesh::build_topology(found.films);
+    if (retry == max_retries) break;
+    const int n_specks = suppress_specks(potentials, winners, found.films, found.topology, smallest_volume);
+    if (n_specks == 0 && found.topology.n_nonconforming_edges == 0) break;
+    if (found.topology.n_nonconforming_edges > 0) {
+      perturb_ties(potentials, winners, amplitude, retry);
+      amplitude *= 10;
+    }
+  }
+  settle_new_phases(found.films, phases, changes, first_change);
+  return found;
+}
+
+int project_vertices(const PhasePotentials& potentials, const mesh::Topology& topology, mesh::FilmMesh& films) {
+  int n_refused = 0;
+  for (int v = 0; v < films.n_vertices(); ++v) {
+    const auto projected = potentials.project(films.position[v], topology.vertex_phases[v]);
+    if (projected) films.position[v] = *projected;
+    else ++n_refused;
+  }
+  return n_refused;
+}
+
+}  // namespace spume::interface

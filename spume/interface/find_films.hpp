@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "spume/interface/phase_pieces.hpp"
+#include "spume/interface/potentials.hpp"
+#include "spume/interface/reconstruct.hpp"
+#include "spume/mesh/film_mesh.hpp"
+#include "spume/mesh/topology.hpp"
+
+namespace spume::interface {
+
+/// A contour whose phases are single pieces and whose edges conform, before projection.
+struct FoundFilms {
+  mesh::FilmMesh films;
+  mesh::Topology topology;
+};
+
+/// Separates pieces, contours, suppresses specks, and gives new phases their target volumes. Where edges do not conform
+/// (exact ties), the potentials near ties are perturbed by 1e-9 h, then 1e-8 h, then 1e-7 h.
+FoundFilms find_films(PhasePotentials& potentials, state::Phases& phases, double smallest_volume,
+                      std::vector<PhaseChange>& changes);
+
+/// Puts the vertices onto the tie of their phases by Newton's method; gives the number that stayed where they were.
+int project_vertices(const PhasePotentials& potentials, const mesh::Topology& topology, mesh::FilmMesh& films);
+
+}  // namespace spume::interface

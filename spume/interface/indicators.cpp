@@ -1,0 +1,192 @@
+#include "spume/interface/indicators.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "spume/base/contract.hpp"
+#include "spume/grid/spectral_filter.hpp"
+#include "spume/interface/profile.hpp"
+
+namespace spume::interface {
+
+namespace {
+
+/// Six-point quadrature on a triangle, exact to degree 4 (Dunavant 1985); weights add up to one.
+struct QuadraturePoint {
+  std::array<double, 3> barycentric;
+  double weight;
+};
+constexpr double a1 = 0.445948490915965, b1 = 0.108103018168070, w1 = 0.223381589678011;
+constexpr double a2 = 0.091576213509771, b2 = 0.816847572980459, w2 = 0.109951743655322;
+constexpr std::array<QuadraturePoint, 6> quadrature{{{{a1, a1, b1}, w1},
+                                                     {{a1, b1, a1}, w1},
+                                                     {{b1, a1, a1}, w1},
+                                                     {{a2, a2, b2}, w2},
+                                                     {{a2, b2, a2}, w2},
+                                                     {{b2, a2, a2}, w2}}};
+
+using Triangle = std::array<Vec3, 3>;
+
+/// The four flat triangles that stand for a curved one.
+std::array<Triangle, 4> pieces(const mesh::FilmMesh& films, int t, const EdgeMidpoints& m) {
+  const auto& v = films.triangle[t].vertex;
+  const Vec3 &a = films.position[v[0]], &b = films.position[v[1]], &c = films.position[v[2]];
+  return {{{a, m[0], m[2]}, {b, m[1], m[0]}, {c, m[2], m[1]}, {m[0], m[1], m[2]}}};
+}
+
+/// Weights of a point along one direction on the five cells around it: of the quadratic B-spline at cell centres, and of
+/// the difference of the cubic B-spline between the two faces of each cell.
+struct LineWeights {
+  int first;
+  std::array<double, 5> value, difference;
+};
+
+LineWeights line_weights(double place) {  // in cells from the lower face of the box
+  LineWeights w;
+  const int cell = static_cast<int>(std::floor(place));
+  const double t = place - cell;  // 0 … 1 inside the cell
+  w.first = cell - 2;
+  w.value = {0, 0.5 * (1 - t) * (1 - t), 0.75 - (t - 0.5) * (t - 0.5), 0.5 * t * t, 0};
+  const double r = 1 - t;
+  const std::array<double, 4> face{r * r * r / 6, 2.0 / 3 - t * t + 0.5 * t * t * t,
+                                   2.0 / 3 - r * r + 0.5 * r * r * r, t * t * t / 6};
+  w.difference = {face[0], face[1] - face[0], face[2] - face[1], face[3] - face[2], -face[3]};
+  return w;
+}
+
+/// Spreads the divergence of fluxes to the owned cells of the fields of their colours.
+class DivergenceSpreader {
+ public:
+  DivergenceSpreader(const grid::Grid& grid, std::vector<grid::Field>& divergence)
+      : lower_(grid.box().lower), per_h_(1 / grid.h()), per_h4_(std::pow(per_h_, 4)), k_begin_(grid.z_begin()), k_end_(grid.z_end()),
+        stride_y_(grid.cells().i), stride_z_(static_cast<std::ptrdiff_t>(grid.cells().i) * grid.cells().j) {
+    for (auto& field : divergence) data_.push_back(field.values().data());
+  }
+
+  /// Adds the flux [m²] at x to one colour and takes it from another; −1 stands for a phase without field.
+  void spread(const Vec3& x, const Vec3& flux, int add_to, int take_from) const {
+    const Vec3 place = per_h_ * (x - lower_);
+    const LineWeights wx = line_weights(place.x), wy = line_weights(place.y), wz = line_weights(place.z);
+    const Vec3 f = per_h4_ * flux;  // flux density on faces (1/h³), and its difference over h
+    for (int c = 0; c < 5; ++c) {
+      const int k = wz.first + c;
+      if (k < k_begin_ || k >= k_end_) continue;
+      for (int b = 0; b < 5; ++b) {
+        const double across = f.x * wy.value[b] * wz.value[c];
+        const double along = f.y * wy.difference[b] * wz.value[c] + f.z * wy.value[b] * wz.difference[c];
+        const std::ptrdiff_t row = (k - k_begin_) * stride_z_ + (wy.first + b) * stride_y_ + wx.first;
+        std::array<double, 5> share;
+        for (int a = 0; a < 5; ++a) share[a] = across * wx.difference[a] + along * wx.value[a];
+        if (add_to >= 0)
+          for (int a = 0; a < 5; ++a) data_[add_to][row + a] += share[a];
+        if (take_from >= 0)
+          for (int a = 0; a < 5; ++a) data_[take_from][row + a] -= share[a];
+      }
+    }
+  }
+
+ private:
+  Vec3 lower_;
+  double per_h_, per_h4_;
+  int k_begin_, k_end_;
+  std::ptrdiff_t stride_y_, stride_z_;
+  std::vector<double*> data_;
+};
+
+/// Spreads all films; gives the volume of each colour [m³].
+std::vector<double> spread_films(const grid::Grid& grid, const mesh::FilmMesh& films,
+                                 const std::vector<EdgeMidpoints>& midpoints, const PhaseColours& colours,
+                                 std::vector<grid::Field>& divergence) {
+  const DivergenceSpreader spreader(grid, divergence);
+  std::vector<double> volume(colours.n_colours, 0.0);
+  const Vec3 origin = films.position.empty() ? Vec3{} : films.position.front();
+  for (int t = 0; t < films.n_triangles(); ++t) {
+    const int a = colours.colour[films.triangle[t].phase_a], b = colours.colour[films.triangle[t].phase_b];
+    for (const Triangle& piece : pieces(films, t, midpoints[t])) {
+      const Vec3 area = 0.5 * cross(piece[1] - piece[0], piece[2] - piece[0]);
+      const double cone = dot(piece[0] - origin, area) / 3;
+      if (a >= 0) volume[a] += cone;
+      if (b >= 0) volume[b] -= cone;
+      for (const auto& [weight, share] : quadrature) {
+        const Vec3 x = weight[0] * piece[0] + weight[1] * piece[1] + weight[2] * piece[2];
+        spreader.spread(x, -share * area, a, b);
+      }
+    }
+  }
+  return volume;
+}
+
+double sinc_cubed(double x) {
+  const double s = x == 0 ? 1 : std::sin(x) / x;
+  return s * s * s;
+}
+
+/// From the divergence of the spread fluxes to smoothed indicators without their mean.
+grid::SpectralFilter indicator_filter(const grid::Grid& grid, double variance) {
+  const double h = grid.h();
+  return {grid, grid::even_symmetry, [h, variance](const Vec3& theta) {
+            double laplacian = 0, spline = 1;
+            for (int d = 0; d < 3; ++d) {
+              laplacian -= (2 - 2 * std::cos(theta[d])) / (h * h);
+              spline *= sinc_cubed(0.5 * theta[d]);
+            }
+            if (laplacian == 0) return 0.0;
+            return smoothing_kernel(0.5 * variance * norm_squared(theta) / (h * h)) / (laplacian * spline);
+          }};
+}
+
+}  // namespace
+
+PhaseColours colour_phases(const grid::Grid& grid, const mesh::FilmMesh& films, int n_phases) {
+  constexpr int reach = 6;
+  PhaseColours colours;
+  colours.colour.assign(n_phases, -1);
+  colours.cells.assign(n_phases, no_cells());
+  const double h = grid.h();
+  for (const auto& t : films.triangle)
+    for (int v : t.vertex) {
+      const Vec3 place = (films.position[v] - grid.box().lower) / h;
+      for (int p : {t.phase_a, t.phase_b})
+        colours.cells[p].include(static_cast<int>(std::floor(place.x)), static_cast<int>(std::floor(place.y)),
+                                 static_cast<int>(std::floor(place.z)));
+    }
+  std::vector<std::vector<int>> phases_of_colour;
+  for (int p = 1; p < n_phases; ++p) {
+    if (colours.cells[p].empty()) continue;
+    colours.cells[p] = grown(colours.cells[p], reach, grid.cells());
+    int c = 0;
+    const auto is_free = [&](int colour) {
+      for (int q : phases_of_colour[colour])
+        if (colours.cells[p].overlaps(colours.cells[q])) return false;
+      return true;
+    };
+    while (c < static_cast<int>(phases_of_colour.size()) && !is_free(c)) ++c;
+    if (c == static_cast<int>(phases_of_colour.size())) phases_of_colour.emplace_back();
+    phases_of_colour[c].push_back(p);
+    colours.colour[p] = c;
+  }
+  colours.cells[0] = no_cells();
+  colours.n_colours = static_cast<int>(phases_of_colour.size());
+  return colours;
+}
+
+std::vector<std::vector<double>> smoothed_indicators(const grid::Grid& grid, const mesh::FilmMesh& films,
+                                                     const std::vector<EdgeMidpoints>& midpoints,
+                                                     const PhaseColours& colours, double variance) {
+  expects(midpoints.size() == films.triangle.size(), "one set of midpoints a triangle");
+  std::vector<grid::Field> field(colours.n_colours, grid::Field(grid));
+  const std::vector<double> volume = spread_films(grid, films, midpoints, colours, field);
+  std::vector<std::vector<double>> indicators;
+  if (field.empty()) return indicators;
+  const grid::SpectralFilter filter = indicator_filter(grid, variance);
+  const Vec3 size = grid.box().size();
+  for (int c = 0; c < colours.n_colours; ++c) {
+    filter.apply(field[c], field[c]);
+    indicators.push_back(grid::gather(field[c]));
+    const double mean = volume[c] / (size.x * size.y * size.z);
+    for (double& value : indicators.back()) value += mean;
+  }
+  return indicators;
+}
+
+}  // namespace spume::interface

@@ -1,0 +1,52 @@
+#include "spume/interface/lost_bubbles.hpp"
+
+#include <utility>
+
+#include "spume/mesh/measure.hpp"
+
+namespace spume::interface {
+
+namespace {
+
+mesh::Phase closest_neighbour(const mesh::FilmMesh& films, mesh::Phase bubble, int n_phases) {
+  std::vector<double> shared(n_phases, 0.0);
+  for (int t = 0; t < films.n_triangles(); ++t) {
+    const auto& triangle = films.triangle[t];
+    if (triangle.phase_a == bubble) shared[triangle.phase_b] += mesh::triangle_area(films, t);
+    if (triangle.phase_b == bubble) shared[triangle.phase_a] += mesh::triangle_area(films, t);
+  }
+  mesh::Phase best = 0;
+  for (int p = 1; p < n_phases; ++p)
+    if (shared[p] > shared[best]) best = p;
+  return best;
+}
+
+}  // namespace
+
+void remove_bubble(mesh::FilmMesh& films, state::Phases& phases, mesh::Phase bubble,
+                   std::vector<PhaseChange>& changes) {
+  const mesh::Phase heir = closest_neighbour(films, bubble, phases.count());
+  std::vector<mesh::FilmTriangle> kept;
+  kept.reserve(films.triangle.size());
+  for (const auto& t : films.triangle) {
+    const mesh::Phase a = t.phase_a == bubble ? heir : t.phase_a, b = t.phase_b == bubble ? heir : t.phase_b;
+    if (a != b) kept.push_back(mesh::make_triangle(t.vertex[0], t.vertex[1], t.vertex[2], a, b));
+  }
+  films.triangle = std::move(kept);
+  mesh::drop_unused_vertices(films);
+  const double gas = std::exchange(phases.target_volume[bubble], 0.0);
+  if (heir != 0) phases.target_volume[heir] += gas;
+  changes.push_back({PhaseChange::Kind::Lost, bubble, heir, gas});
+}
+
+void remove_small_bubbles(mesh::FilmMesh& films, state::Phases& phases, double smallest_volume,
+                          std::vector<PhaseChange>& changes) {
+  for (mesh::Phase p = 1; p < phases.count(); ++p) {
+    if (!phases.alive(p)) continue;
+    const double measured = mesh::phase_volumes(films, phases.count())[p];
+    if (phases.target_volume[p] < smallest_volume || measured < smallest_volume)
+      remove_bubble(films, phases, p, changes);
+  }
+}
+
+}  // namespace spume::interface

@@ -1,0 +1,281 @@
+#include "spume/interface/phase_pieces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "spume/base/union_find.hpp"
+#include "spume/mesh/measure.hpp"
+
+namespace spume::interface {
+
+namespace {
+
+constexpr int reach = 6;  // of a piece, in cells
+
+std::vector<CellRun> find_runs(const Index3& cells, const std::vector<mesh::Phase>& winner,
+                               std::vector<int>& first_of_row) {
+  std::vector<CellRun> runs;
+  std::size_t cell = 0;
+  for (int k = 0; k < cells.k; ++k)
+    for (int j = 0; j < cells.j; ++j) {
+      first_of_row.push_back(static_cast<int>(runs.size()));
+      for (int i = 0; i < cells.i; ++i, ++cell) {
+        if (i == 0 || winner[cell] != runs.back().phase) runs.push_back({i, i, j, k, winner[cell], -1});
+        runs.back().i_end = i + 1;
+      }
+    }
+  first_of_row.push_back(static_cast<int>(runs.size()));
+  return runs;
+}
+
+/// Distances [cells] from the cells of a window to the nearest cell of some pieces of a phase, cut off at `reach`.
+class PieceDistance {
+ public:
+  PieceDistance(const Index3& cells, const std::vector<mesh::Phase>& winner) : whole_(all_cells(cells)), winner_(winner) {
+    for (int k = -reach; k <= reach; ++k)
+      for (int j = -reach; j <= reach; ++j)
+        for (int i = -reach; i <= reach; ++i) {
+          const double d = std::sqrt(static_cast<double>(i * i + j * j + k * k));
+          if (d < reach) ball_.push_back({{i, j, k}, d});
+        }
+  }
+
+  template <class Accept>
+  std::vector<double> operator()(const PhasePieces& pieces, const CellBox& window, Accept&& accept) const {
+    std::vector<double> distance(window.size(), reach);
+    const CellBox sources = grown(window, reach, whole_.end);
+    for (const CellRun& run : pieces.run) {
+      if (!accept(run.piece) || run.j < sources.begin.j || run.j >= sources.end.j || run.k < sources.begin.k ||
+          run.k >= sources.end.k)
+        continue;
+      for (int i = std::max(run.i_begin, sources.begin.i); i < std::min(run.i_end, sources.end.i); ++i) {
+        if (is_interior(i, run.j, run.k, run.phase)) {
+          if (window.contains(i, run.j, run.k)) distance[window.offset(i, run.j, run.k)] = 0;
+        } else {
+          stamp(i, run.j, run.k, window, distance);
+        }
+      }
+    }
+    return distance;
+  }
+
+ private:
+  struct Offset {
+    Index3 step;
+    double distance;
+  };
+
+  bool is_interior(int i, int j, int k, mesh::Phase phase) const {
+    const auto same = [&](int a, int b, int c) {
+      return !whole_.contains(a, b, c) || winner_[whole_.offset(a, b, c)] == phase;
+    };
+    return same(i - 1, j, k) && same(i + 1, j, k) && same(i, j - 1, k) && same(i, j + 1, k) && same(i, j, k - 1) &&
+           same(i, j, k + 1);
+  }
+  void stamp(int i, int j, int k, const CellBox& window, std::vector<double>& distance) const {
+    for (const auto& [step, d] : ball_) {
+      const int a = i + step.i, b = j + step.j, c = k + step.k;
+      if (!window.contains(a, b, c)) continue;
+      double& known = distance[window.offset(a, b, c)];
+      known = std::min(known, d);
+    }
+  }
+
+  CellBox whole_;
+  const std::vector<mesh::Phase>& winner_;
+  std::vector<Offset> ball_;
+};
+
+/// The piece that keeps the phase.
+int main_piece(const PhasePieces& pieces, const std::vector<int>& of_phase) {
+  // The first cell is at the edge of the box, which belongs to the outside.
+  if (of_phase.front() == 0 && pieces.piece[0].phase == 0) return 0;
+  return *std::max_element(of_phase.begin(), of_phase.end(), [&](int a, int b) {
+    return pieces.piece[a].n_cells < pieces.piece[b].n_cells;  // the first of equals
+  });
+}
+
+/// ψ of a piece of its own, cut out of that of its phase; the phase is lowered there.
+PhaseField cut_out(PhaseField& parent, const CellBox& window, const std::vector<double>& to_piece,
+                   const std::vector<double>& to_others, double slope, mesh::Phase child) {
+  PhaseField field{child, window, parent.beyond, {}};
+  field.value.reserve(window.size());
+  std::size_t n = 0;
+  for_each_cell(window, [&](int i, int j, int k) {
+    const double nearer = to_others[n] - to_piece[n];  // how much nearer to the piece than to the others
+    ++n;
+    const double value = parent.at(i, j, k);
+    field.value.push_back(value + slope * std::min(0.0, nearer));
+    if (parent.cells.contains(i, j, k))
+      parent.value[parent.cells.offset(i, j, k)] = value - slope * std::max(0.0, nearer);
+  });
+  return field;
+}
+
+/// A closed surface of one phase: triangles linked by vertices that they share.
+struct ClosedSurface {
+  mesh::Phase phase;
+  double volume = 0;   ///< enclosed; negative around a cavity [m³]
+  Vec3 lower, upper;   ///< bounding box
+};
+
+std::vector<ClosedSurface> closed_surfaces(const mesh::FilmMesh& films, const mesh::Topology& topology) {
+  // Side s: triangle s/2 as seen from its phase_a (even) or its phase_b (odd).
+  const auto phase_of = [&](int side) {
+    const auto& t = films.triangle[side / 2];
+    return side % 2 ? t.phase_b : t.phase_a;
+  };
+  UnionFind classes(2 * films.n_triangles());
+  std::vector<int> met;  // one side of each phase at a vertex
+  for (int v = 0; v < films.n_vertices(); ++v) {
+    met.clear();
+    for (int n = topology.star_offset[v]; n < topology.star_offset[v + 1]; ++n)
+      for (int side : {2 * topology.star_triangle[n], 2 * topology.star_triangle[n] + 1}) {
+        const auto known = std::find_if(met.begin(), met.end(), [&](int m) { return phase_of(m) == phase_of(side); });
+        if (known == met.end()) met.push_back(side);
+        else classes.join(*known, side);
+      }
+  }
+  std::vector<int> surface_of_side;
+  std::vector<ClosedSurface> surfaces(classes.number(surface_of_side), {-1, 0, {}, {}});
+  for (int side = 0; side < 2 * films.n_triangles(); ++side) {
+    const auto& t = films.triangle[side / 2];
+    ClosedSurface& s = surfaces[surface_of_side[side]];
+    const Vec3 &a = films.position[t.vertex[0]], &b = films.position[t.vertex[1]], &c = films.position[t.vertex[2]];
+    if (s.phase < 0) s = {phase_of(side), 0, a, a};
+    const Vec3 o = films.position.front();  // near, so that round-off stays small
+    s.volume += (side % 2 ? -1 : 1) * dot(a - o, cross(b - o, c - o)) / 6;
+    for (int v : t.vertex)
+      for (int d = 0; d < 3; ++d) {
+        s.lower[d] = std::min(s.lower[d], films.position[v][d]);
+        s.upper[d] = std::max(s.upper[d], films.position[v][d]);
+      }
+  }
+  return surfaces;
+}
+
+}  // namespace
+
+PhasePieces find_pieces(const Index3& cells, const std::vector<mesh::Phase>& winner) {
+  std::vector<int> first_of_row;
+  PhasePieces result{find_runs(cells, winner, first_of_row), {}};
+  auto& runs = result.run;
+  UnionFind classes(static_cast<int>(runs.size()));
+  // Links of a row to the rows one step up in j, in k, or in both; along i they reach from 0 to 1.
+  constexpr std::array<std::array<int, 2>, 3> steps{{{1, 0}, {0, 1}, {1, 1}}};
+  for (int n = 0; n < static_cast<int>(runs.size()); ++n) {
+    const CellRun& run = runs[n];
+    for (const auto& [dj, dk] : steps) {
+      if (run.j + dj >= cells.j || run.k + dk >= cells.k) continue;
+      const int row = (run.k + dk) * cells.j + run.j + dj;
+      for (int m = first_of_row[row]; m < first_of_row[row + 1]; ++m)
+        if (runs[m].phase == run.phase && runs[m].i_begin <= run.i_end && runs[m].i_end > run.i_begin)
+          classes.join(n, m);
+    }
+  }
+  std::vector<int> piece_of_run;
+  result.piece.assign(classes.number(piece_of_run), {-1, no_cells(), 0});
+  for (std::size_t n = 0; n < runs.size(); ++n) {
+    CellRun& run = runs[n];
+    run.piece = piece_of_run[n];
+    PhasePiece& piece = result.piece[run.piece];
+    piece.phase = run.phase;
+    piece.cells.include(run.i_begin, run.j, run.k);
+    piece.cells.include(run.i_end - 1, run.j, run.k);
+    piece.n_cells += run.i_end - run.i_begin;
+  }
+  return result;
+}
+
+bool separate_pieces(PhasePotentials& potentials, const Winners& winners, state::Phases& phases,
+                     double smallest_volume, std::vector<PhaseChange>& changes) {
+  const Index3 cells = potentials.box().cells;
+  const double h = potentials.h(), cell_volume = h * h * h;
+  const PhasePieces pieces = find_pieces(cells, winners.phase);
+  std::map<mesh::Phase, std::vector<int>> of_phase;
+  for (std::size_t n = 0; n < pieces.piece.size(); ++n)
+    of_phase[pieces.piece[n].phase].push_back(static_cast<int>(n));
+
+  const PieceDistance distance(cells, winners.phase);
+  bool changed = false;
+  for (const auto& [phase, members] : of_phase) {
+    if (members.size() < 2) continue;
+    const int main = main_piece(pieces, members);
+    for (int member : members) {
+      if (member == main) continue;
+      changed = true;
+      const PhasePiece& piece = pieces.piece[member];
+      const CellBox window = grown(piece.cells, reach, cells);
+      const auto to_piece = distance(pieces, window, [&](int n) { return n == member; });
+      const auto to_others =
+          distance(pieces, window, [&](int n) { return n != member && pieces.piece[n].phase == phase; });
+      const double volume = static_cast<double>(piece.n_cells) * cell_volume;
+      if (volume < smallest_volume) {
+        // A piece this small has ψ above the second by 2.5 h at most; three h a cell of distance beats that.
+        cut_out(*potentials.find(phase), window, to_piece, to_others, 3 * h, phase);
+        changes.push_back({PhaseChange::Kind::Absorbed, phase, phase, volume});
+      } else {
+        const mesh::Phase child = phases.count();
+        phases.target_volume.push_back(0);
+        potentials.set(cut_out(*potentials.find(phase), window, to_piece, to_others, h, child));
+        changes.push_back(
+            {phase == 0 ? PhaseChange::Kind::Pocket : PhaseChange::Kind::Split, phase, child, volume});
+      }
+    }
+  }
+  return changed;
+}
+
+void settle_new_phases(const mesh::FilmMesh& films, state::Phases& phases, std::vector<PhaseChange>& changes,
+                       std::size_t first) {
+  const std::vector<double> volume = mesh::phase_volumes(films, phases.count());
+  std::map<mesh::Phase, double> family_volume, family_target;
+  const auto is_split = [](const PhaseChange& c) { return c.kind == PhaseChange::Kind::Split; };
+  for (std::size_t n = first; n < changes.size(); ++n) {
+    const PhaseChange& c = changes[n];
+    if (!is_split(c)) continue;
+    if (family_volume.emplace(c.phase, volume[c.phase]).second)
+      family_target[c.phase] = phases.target_volume[c.phase];
+    family_volume[c.phase] += volume[c.other];
+  }
+  for (std::size_t n = first; n < changes.size(); ++n) {
+    PhaseChange& c = changes[n];
+    if (c.kind == PhaseChange::Kind::Pocket) phases.target_volume[c.other] = c.volume = volume[c.other];
+    if (!is_split(c)) continue;
+    const double per_volume = family_target[c.phase] / family_volume[c.phase];
+    phases.target_volume[c.other] = c.volume = per_volume * volume[c.other];
+    phases.target_volume[c.phase] -= c.volume;
+  }
+}
+
+int suppress_specks(PhasePotentials& potentials, const Winners& winners, const mesh::FilmMesh& films,
+                    const mesh::Topology& topology, double smallest_volume) {
+  const Index3 cells = potentials.box().cells;
+  const double h = potentials.h();
+  const std::vector<ClosedSurface> surfaces = closed_surfaces(films, topology);
+  std::map<mesh::Phase, double> largest;
+  for (const auto& s : surfaces)
+    if (s.phase != 0) largest[s.phase] = std::max(largest[s.phase], s.volume);
+  int n_specks = 0;
+  for (const auto& s : surfaces) {
+    if (s.volume <= 0 || s.volume >= smallest_volume || (s.phase != 0 && s.volume == largest[s.phase])) continue;
+    ++n_specks;
+    CellBox around = no_cells();
+    for (const Vec3& corner : {s.lower, s.upper}) {
+      const Vec3 place = (corner - potentials.box().lower) / h;
+      around.include(static_cast<int>(std::floor(place.x)), static_cast<int>(std::floor(place.y)),
+                     static_cast<int>(std::floor(place.z)));
+    }
+    PhaseField& field = *potentials.find(s.phase);
+    const CellBox whole = all_cells(cells);
+    for_each_cell(grown(around, 1, cells), [&](int i, int j, int k) {
+      if (winners.phase[whole.offset(i, j, k)] != s.phase && field.cells.contains(i, j, k))
+        field.value[field.cells.offset(i, j, k)] -= h;
+    });
+  }
+  return n_specks;
+}
+
+}  // namespace spume::interface

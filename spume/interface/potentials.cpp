@@ -1,0 +1,211 @@
+#include "spume/interface/potentials.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "spume/base/contract.hpp"
+#include "spume/interface/profile.hpp"
+
+namespace spume::interface {
+
+namespace {
+
+/// Weights of cubic Lagrange interpolation from the points −1, 0, 1, 2 to t in [0, 1), and of its derivative.
+struct CubicWeights {
+  std::array<double, 4> value, slope;
+};
+
+CubicWeights cubic_weights(double t) {
+  return {{-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2,
+           (t + 1) * t * (t - 1) / 6},
+          {-(3 * t * t - 6 * t + 2) / 6, (3 * t * t - 4 * t - 1) / 2, -(3 * t * t - 2 * t - 2) / 2,
+           (3 * t * t - 1) / 6}};
+}
+
+/// A row of four values of a field; outside its cells they are read one by one.
+std::array<double, 4> row(const PhaseField& f, int i, int j, int k) {
+  std::array<double, 4> values;
+  const CellBox& c = f.cells;
+  if (i >= c.begin.i && i + 4 <= c.end.i && c.contains(i, j, k)) {
+    const double* from = &f.value[c.offset(i, j, k)];
+    std::copy(from, from + 4, values.begin());
+  } else {
+    for (int n = 0; n < 4; ++n) values[n] = f.at(i + n, j, k);
+  }
+  return values;
+}
+
+bool is_near(const Vec3& x, const Vec3& start, double reach) { return norm_squared(x - start) <= reach * reach; }
+
+}  // namespace
+
+void PhasePotentials::set(PhaseField field) {
+  expects(field.phase >= 0 && field.value.size() == field.cells.size(), "a field fills its cells");
+  const auto place = std::lower_bound(fields_.begin(), fields_.end(), field.phase,
+                                      [](const PhaseField& f, mesh::Phase p) { return f.phase < p; });
+  if (place != fields_.end() && place->phase == field.phase) *place = std::move(field);
+  else fields_.insert(place, std::move(field));
+  place_of_phase_.assign(fields_.back().phase + 1, -1);
+  for (std::size_t n = 0; n < fields_.size(); ++n) place_of_phase_[fields_[n].phase] = static_cast<int>(n);
+}
+
+const PhaseField* PhasePotentials::find(mesh::Phase phase) const {
+  if (phase < 0 || phase >= static_cast<int>(place_of_phase_.size()) || place_of_phase_[phase] < 0) return nullptr;
+  return &fields_[place_of_phase_[phase]];
+}
+PhaseField* PhasePotentials::find(mesh::Phase phase) {
+  return const_cast<PhaseField*>(std::as_const(*this).find(phase));
+}
+
+void PhasePotentials::raise(mesh::Phase phase, double amount) {
+  PhaseField* field = find(phase);
+  expects(field, "only a phase with a field can be raised");
+  field->beyond += amount;
+  for (double& value : field->value) value += amount;
+}
+
+double PhasePotentials::difference(const PhaseField& a, const PhaseField& b, const Vec3& x, Vec3& gradient) const {
+  const double per_h = 1 / h();
+  const Vec3 place = per_h * (x - box_.lower) - Vec3{0.5, 0.5, 0.5};
+  const int i = static_cast<int>(std::floor(place.x)), j = static_cast<int>(std::floor(place.y)),
+            k = static_cast<int>(std::floor(place.z));
+  const CubicWeights wx = cubic_weights(place.x - i), wy = cubic_weights(place.y - j),
+                     wz = cubic_weights(place.z - k);
+  double value = 0;
+  Vec3 slope;
+  for (int c = 0; c < 4; ++c) {
+    double plane = 0, plane_x = 0, plane_y = 0;
+    for (int m = 0; m < 4; ++m) {
+      const std::array<double, 4> va = row(a, i - 1, j - 1 + m, k - 1 + c), vb = row(b, i - 1, j - 1 + m, k - 1 + c);
+      double line = 0, line_x = 0;
+      for (int n = 0; n < 4; ++n) {
+        const double v = va[n] - vb[n];
+        line += wx.value[n] * v;
+        line_x += wx.slope[n] * v;
+      }
+      plane += wy.value[m] * line;
+      plane_x += wy.value[m] * line_x;
+      plane_y += wy.slope[m] * line;
+    }
+    value += wz.value[c] * plane;
+    slope += Vec3{wz.value[c] * plane_x, wz.value[c] * plane_y, wz.slope[c] * plane};
+  }
+  gradient = 0.5 * per_h * slope;
+  return 0.5 * value;
+}
+
+std::optional<Vec3> PhasePotentials::project(const Vec3& x, const mesh::PhaseSet& phases) const {
+  std::array<const PhaseField*, 4> field{};
+  const int n = std::min(phases.size(), 4);
+  for (int m = 0; m < n; ++m) {
+    field[m] = find(phases[m]);
+    if (!field[m]) return std::nullopt;
+  }
+  if (n == 2) return project_on_film(x, field.data());
+  if (n == 3) return project_on_border(x, field.data());
+  if (n == 4) return project_on_junction(x, field.data());
+  return std::nullopt;
+}
+
+std::optional<Vec3> PhasePotentials::project_on_film(const Vec3& start, const PhaseField* const* field) const {
+  constexpr int n_iterations = 5;
+  constexpr double reach = 0.5, smallest_gradient = 0.2, converged = 1e-10;  // lengths in h
+  Vec3 x = start, g;
+  for (int n = 0; n < n_iterations; ++n) {
+    const double s = difference(*field[0], *field[1], x, g);
+    const double g2 = norm_squared(g);
+    if (!(g2 > smallest_gradient * smallest_gradient)) return std::nullopt;
+    x -= (s / g2) * g;
+    if (!is_near(x, start, 2 * reach * h())) return std::nullopt;
+    if (std::abs(s) < converged * h()) break;
+  }
+  if (!is_near(x, start, reach * h())) return std::nullopt;
+  return x;
+}
+
+std::optional<Vec3> PhasePotentials::project_on_border(const Vec3& start, const PhaseField* const* field) const {
+  constexpr int n_iterations = 6;
+  constexpr double reach = 0.8, smallest_gradient = 0.2, smallest_sine_squared = 0.02, converged = 1e-10;
+  Vec3 x = start, g1, g2;
+  for (int n = 0; n < n_iterations; ++n) {
+    const double s1 = difference(*field[0], *field[1], x, g1), s2 = difference(*field[0], *field[2], x, g2);
+    const double a = norm_squared(g1), b = dot(g1, g2), c = norm_squared(g2), determinant = a * c - b * b;
+    const double floor = smallest_gradient * smallest_gradient;
+    if (!(determinant > smallest_sine_squared * a * c && a > floor && c > floor)) return std::nullopt;
+    x -= (c * s1 - b * s2) / determinant * g1 + (a * s2 - b * s1) / determinant * g2;
+    if (!is_near(x, start, reach * h())) return std::nullopt;
+    if (std::abs(s1) + std::abs(s2) < converged * h()) break;
+  }
+  return x;
+}
+
+std::optional<Vec3> PhasePotentials::project_on_junction(const Vec3& start, const PhaseField* const* field) const {
+  constexpr int n_iterations = 8;
+  constexpr double reach = 1.2, smallest_volume = 0.05, converged = 1e-10;
+  Vec3 x = start;
+  for (int n = 0; n < n_iterations; ++n) {
+    std::array<Vec3, 3> g;
+    std::array<double, 3> s;
+    for (int m = 0; m < 3; ++m) s[m] = difference(*field[0], *field[m + 1], x, g[m]);
+    const double determinant = dot(g[0], cross(g[1], g[2]));
+    if (!(std::abs(determinant) > smallest_volume * norm(g[0]) * norm(g[1]) * norm(g[2]))) return std::nullopt;
+    const Vec3 move =
+        (s[0] * cross(g[1], g[2]) + s[1] * cross(g[2], g[0]) + s[2] * cross(g[0], g[1])) / determinant;
+    x -= move;
+    if (!is_near(x, start, reach * h())) return std::nullopt;
+    if (norm(move) < converged * h()) break;
+  }
+  return x;
+}
+
+PhasePotentials potentials_of(const grid::Box& box, const PhaseColours& colours,
+                              std::span<const std::vector<double>> indicator, double variance, double floor) {
+  const FlatFilmMap map(variance, floor);
+  const CellBox whole = all_cells(box.cells);
+  PhasePotentials potentials(box);
+  PhaseField outside{0, whole, map.distance(0), std::vector<double>(whole.size(), 1.0)};
+  for (const auto& colour : indicator)
+    for (std::size_t n = 0; n < colour.size(); ++n) outside.value[n] -= colour[n];
+  for (double& value : outside.value) value = map.distance(value);
+  potentials.set(std::move(outside));
+
+  for (std::size_t p = 0; p < colours.colour.size(); ++p) {
+    if (colours.colour[p] < 0) continue;
+    PhaseField field{static_cast<mesh::Phase>(p), colours.cells[p], map.distance(0), {}};
+    field.value.reserve(field.cells.size());
+    const auto& c = indicator[colours.colour[p]];
+    for_each_cell(field.cells,
+                  [&](int i, int j, int k) { field.value.push_back(map.distance(c[whole.offset(i, j, k)])); });
+    potentials.set(std::move(field));
+  }
+  return potentials;
+}
+
+Winners find_winners(const PhasePotentials& potentials) {
+  const CellBox whole = all_cells(potentials.box().cells);
+  double lowest = 0;
+  for (const auto& field : potentials.fields()) lowest = std::min(lowest, field.beyond);
+  constexpr double none = -std::numeric_limits<double>::max();
+  Winners w{std::vector<mesh::Phase>(whole.size(), 0), std::vector<double>(whole.size(), none),
+            std::vector<double>(whole.size(), lowest)};
+  for (const auto& field : potentials.fields()) {
+    std::size_t n = 0;
+    for_each_cell(field.cells, [&](int i, int j, int k) {
+      const double value = field.value[n++];
+      const std::size_t cell = whole.offset(i, j, k);
+      if (value > w.first[cell]) {
+        if (w.first[cell] != none) w.second[cell] = std::max(w.second[cell], w.first[cell]);
+        w.first[cell] = value;
+        w.phase[cell] = field.phase;
+      } else {
+        w.second[cell] = std::max(w.second[cell], value);
+      }
+    });
+  }
+  return w;
+}
+
+}  // namespace spume::interface

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "spume/grid/box.hpp"
+#include "spume/grid/grid.hpp"
+#include "spume/interface/cell_box.hpp"
+#include "spume/interface/indicators.hpp"
+#include "spume/mesh/phase_set.hpp"
+
+namespace spume::interface {
+
+/// ψ of one phase [m] at the centres of a block of cells; outside the block the phase is no candidate, and where an
+/// interpolation reaches beyond it ψ is `beyond`.
+struct PhaseField {
+  mesh::Phase phase;
+  CellBox cells;
+  double beyond;
+  std::vector<double> value;
+
+  double at(int i, int j, int k) const { return cells.contains(i, j, k) ? value[cells.offset(i, j, k)] : beyond; }
+};
+
+/// The linearised potentials ψ_i of all phases, the same on every rank. The phase of a point is that of the largest ψ;
+/// films are where the two largest are equal. Near a film of phases i and j, ½(ψ_i − ψ_j) is the signed distance.
+class PhasePotentials {
+ public:
+  explicit PhasePotentials(const grid::Box& box) : box_(box) {}
+
+  const grid::Box& box() const { return box_; }
+  double h() const { return box_.spacing(); }
+
+  /// Adds the field of a phase, or replaces it.
+  void set(PhaseField field);
+  /// Fields in increasing order of phase.
+  const std::vector<PhaseField>& fields() const { return fields_; }
+  const PhaseField* find(mesh::Phase phase) const;
+  PhaseField* find(mesh::Phase phase);
+  /// ψ_phase += amount [m] everywhere: its films move outwards by half of that.
+  void raise(mesh::Phase phase, double amount);
+
+  /// ½(ψ_a − ψ_b) at a point by tricubic (Lagrange) interpolation [m], and its gradient [−].
+  double difference(const PhaseField& a, const PhaseField& b, const Vec3& x, Vec3& gradient) const;
+
+  /// Newton's method from x onto ψ_i = ψ_j of the given phases: along the gradient for two phases (film), by the
+  /// shortest way for three (border), to the point for four or more (junction; the first four decide). Nothing where
+  /// gradients are degenerate or the move would be longer than 0.5, 0.8 or 1.2 h.
+  std::optional<Vec3> project(const Vec3& x, const mesh::PhaseSet& phases) const;
+
+ private:
+  std::optional<Vec3> project_on_film(const Vec3& start, const PhaseField* const* field) const;
+  std::optional<Vec3> project_on_border(const Vec3& start, const PhaseField* const* field) const;
+  std::optional<Vec3> project_on_junction(const Vec3& start, const PhaseField* const* field) const;
+
+  grid::Box box_;
+  std::vector<PhaseField> fields_;
+  std::vector<int> place_of_phase_;  ///< in fields_; −1: none
+};
+
+/// Potentials from smoothed indicators by the profile of a flat film; ψ of the outside from 1 − Σ of all the others.
+/// `indicator` as of smoothed_indicators(); `variance` [m²] and `floor` as of FlatFilmMap.
+PhasePotentials potentials_of(const grid::Box& box, const PhaseColours& colours,
+                              std::span<const std::vector<double>> indicator, double variance, double floor);
+
+/// At every cell: the phase with the largest ψ (the lowest of equals), the two largest ψ [m].
+struct Winners {
+  std::vector<mesh::Phase> phase;
+  std::vector<double> first, second;
+};
+Winners find_winners(const PhasePotentials& potentials);
+
+}  // namespace spume::interface

@@ -1,0 +1,101 @@
+#include "spume/interface/reconstruct.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "spume/base/error.hpp"
+#include "spume/interface/clearance.hpp"
+#include "spume/interface/curved_triangles.hpp"
+#include "spume/interface/find_films.hpp"
+#include "spume/interface/indicators.hpp"
+#include "spume/interface/lost_bubbles.hpp"
+#include "spume/interface/potentials.hpp"
+#include "spume/interface/step_in_advance.hpp"
+#include "spume/interface/volume_constants.hpp"
+#include "spume/mesh/volume_constraint.hpp"
+
+namespace spume::interface {
+
+namespace {
+
+constexpr double largest_volume_step = 0.2;  // of potentials and of vertices, in h
+
+void require_clearance(const grid::Grid& grid, const mesh::FilmMesh& films) {
+  if (const auto problem = clearance_problem(grid, films); !problem.empty()) throw NumericalError(problem);
+}
+
+PhasePotentials potentials_from(const grid::Grid& grid, mesh::FilmMesh films, int n_phases,
+                                const ReconstructParameters& parameters) {
+  const double h = grid.h(), variance = parameters.smoothing * h * h;
+  const mesh::Topology topology = mesh::build_topology(films);
+  step_in_advance(films, topology, variance / 10, h, n_phases);
+  const auto midpoints = edge_midpoints(films, topology);
+  const PhaseColours colours = colour_phases(grid, films, n_phases);
+  const auto indicators = smoothed_indicators(grid, films, midpoints, colours, variance);
+  return potentials_of(grid.box(), colours, indicators, variance, parameters.profile_floor);
+}
+
+/// Bubbles that smoothing has left with too few cells to be made whole again. A ball of the smallest volume keeps 0.47 of
+/// it; only flat or long ones fall below a quarter.
+std::vector<mesh::Phase> unresolved_bubbles(const PhasePotentials& potentials, const state::Phases& phases,
+                                            double smallest_volume) {
+  const double h = potentials.h();
+  std::vector<double> volume(phases.count(), 0.0);
+  for (mesh::Phase p : find_winners(potentials).phase) volume[p] += h * h * h;
+  std::vector<mesh::Phase> unresolved;
+  for (mesh::Phase p = 1; p < phases.count(); ++p)
+    if (phases.alive(p) && volume[p] < 0.25 * smallest_volume) unresolved.push_back(p);
+  return unresolved;
+}
+
+/// Potentials of a mesh from which bubbles too small for the grid have been taken out.
+PhasePotentials potentials_of_resolved(const grid::Grid& grid, mesh::FilmMesh& films, state::Phases& phases,
+                                       const ReconstructParameters& parameters, double smallest_volume,
+                                       std::vector<PhaseChange>& changes) {
+  remove_small_bubbles(films, phases, smallest_volume, changes);
+  for (;;) {
+    PhasePotentials potentials = potentials_from(grid, films, phases.count(), parameters);
+    const auto unresolved = unresolved_bubbles(potentials, phases, smallest_volume);
+    if (unresolved.empty()) return potentials;
+    for (mesh::Phase p : unresolved) remove_bubble(films, phases, p, changes);
+  }
+}
+
+}  // namespace
+
+Reconstruction reconstruct(const grid::Grid& grid, const mesh::FilmMesh& films, state::Phases& phases,
+                           const ReconstructParameters& parameters) {
+  const double h = grid.h(), edge = parameters.smallest_bubble_cells * h, smallest_volume = edge * edge * edge;
+  require_clearance(grid, films);
+  ReconstructReport report;
+  mesh::FilmMesh resolved = films;
+  auto potentials = std::make_shared<PhasePotentials>(
+      potentials_of_resolved(grid, resolved, phases, parameters, smallest_volume, report.changes));
+
+  constexpr int n_volume_rounds = 2;
+  FoundFilms found;
+  for (int round = 0;; ++round) {
+    found = find_films(*potentials, phases, smallest_volume, report.changes);
+    report.n_refused_projections = project_vertices(*potentials, found.topology, found.films);
+    if (!parameters.conserve_volumes || round == n_volume_rounds) break;
+    raise_to_volumes(*potentials, found.films, phases, largest_volume_step * h);
+  }
+
+  mesh::FilmMesh& mesh = found.films;
+  report.remesh = mesh::remesh(
+      mesh, [h](const Vec3&) { return h; }, projection_onto(potentials), parameters.remesh);
+  if (parameters.conserve_volumes)
+    report.largest_volume_displacement =
+        mesh::restore_volumes(mesh, phases.target_volume, 3, largest_volume_step * h);
+  report.n_nonconforming_edges = mesh::build_topology(mesh).n_nonconforming_edges;
+  require_clearance(grid, mesh);
+  return {std::move(mesh), std::move(report), std::move(potentials)};
+}
+
+mesh::Projection projection_onto(std::shared_ptr<const PhasePotentials> potentials) {
+  return [potentials = std::move(potentials)](const Vec3& x, const mesh::PhaseSet& phases) {
+    return potentials->project(x, phases);
+  };
+}
+
+}  // namespace spume::interface

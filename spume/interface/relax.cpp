@@ -1,0 +1,92 @@
+#include "spume/interface/relax.hpp"
+
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+
+#include "spume/base/error.hpp"
+#include "spume/mesh/measure.hpp"
+#include "spume/mesh/volume_constraint.hpp"
+
+namespace spume::interface {
+
+namespace {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// M/τ + L: lumped areas over τ, and the cotangent matrix of all films. A cotangent beyond ±20 belongs to a sliver that
+/// would otherwise rule the whole step; it is clipped.
+SparseMatrix implicit_matrix(const mesh::FilmMesh& films, double tau, Eigen::VectorXd& mass_over_tau) {
+  constexpr double largest_cotangent = 20;
+  const int n = films.n_vertices();
+  mass_over_tau = Eigen::VectorXd::Zero(n);
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(12 * films.triangle.size() + n);
+  for (int t = 0; t < films.n_triangles(); ++t) {
+    const auto& v = films.triangle[t].vertex;
+    const double doubled_area = norm(mesh::doubled_area_normal(films, t));
+    for (int c = 0; c < 3; ++c) mass_over_tau(v[c]) += doubled_area / (6 * tau);
+    if (doubled_area == 0) continue;
+    for (int c = 0; c < 3; ++c) {
+      const Vec3& apex = films.position[v[(c + 2) % 3]];
+      const int a = v[c], b = v[(c + 1) % 3];
+      const double cotangent = dot(films.position[a] - apex, films.position[b] - apex) / doubled_area;
+      const double weight = 0.5 * std::clamp(cotangent, -largest_cotangent, largest_cotangent);
+      entries.emplace_back(a, a, weight);
+      entries.emplace_back(b, b, weight);
+      entries.emplace_back(a, b, -weight);
+      entries.emplace_back(b, a, -weight);
+    }
+  }
+  for (int v = 0; v < n; ++v) entries.emplace_back(v, v, mass_over_tau(v));
+  SparseMatrix matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+void solve_for_positions(const SparseMatrix& matrix, const Eigen::VectorXd& mass_over_tau,
+                         const std::vector<Vec3>& push, mesh::FilmMesh& films) {
+  Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper> solver(matrix);
+  solver.setTolerance(1e-9);
+  solver.setMaxIterations(2000);
+  const int n = films.n_vertices();
+  const Vec3 origin = films.position.front();  // differences keep the digits that positions in a large box would lose
+  for (int axis = 0; axis < 3; ++axis) {
+    Eigen::VectorXd old_position(n), right(n);
+    for (int v = 0; v < n; ++v) {
+      old_position(v) = films.position[v][axis] - origin[axis];
+      right(v) = mass_over_tau(v) * old_position(v) + push[v][axis];
+    }
+    const Eigen::VectorXd new_position = solver.solveWithGuess(right, old_position);
+    if (!new_position.allFinite())
+      throw NumericalError("relaxation of the films failed: the positions are not finite any more");
+    for (int v = 0; v < n; ++v) films.position[v][axis] = new_position(v) + origin[axis];
+  }
+}
+
+}  // namespace
+
+RelaxStepReport relax_step(mesh::FilmMesh& films, const state::Phases& phases, double tau) {
+  RelaxStepReport report{};
+  report.area_before = mesh::film_area(films);
+  const mesh::Topology topology = mesh::build_topology(films);
+  const auto pressure = mesh::film_pressures(films, topology, mesh::area_descent(films), phases.count());
+  const auto volume = mesh::phase_volumes(films, phases.count());
+  double work = 0;
+  for (int p = 1; p < phases.count(); ++p) work += pressure[p] * volume[p];
+  report.virial_error = std::abs(2.0 / 3.0 * report.area_before / work - 1);
+
+  const std::vector<Vec3> before = films.position;
+  Eigen::VectorXd mass_over_tau;
+  const SparseMatrix matrix = implicit_matrix(films, tau, mass_over_tau);
+  solve_for_positions(matrix, mass_over_tau, mesh::weighted_volume_gradient(films, pressure), films);
+  mesh::restore_volumes(films, phases.target_volume, 2, std::sqrt(tau));
+
+  for (int v = 0; v < films.n_vertices(); ++v)
+    report.largest_displacement = std::max(report.largest_displacement, norm(films.position[v] - before[v]));
+  report.area_after = mesh::film_area(films);
+  return report;
+}
+
+}  // namespace spume::interface

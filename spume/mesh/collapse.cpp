@@ -1,0 +1,266 @@
+#include "spume/mesh/collapse.hpp"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+#include <utility>
+
+namespace spume::mesh {
+namespace {
+
+constexpr int largest_number_of_passes = 6;
+constexpr double tiny_edge_reach =
+    2.2;                              // × target: the longest edge that the collapse of a tiny one may make
+constexpr double least_cosine = 0.7;  // between a triangle and the film around it, after a collapse
+constexpr double least_cosine_when_tiny = 0.3;  // the same, when a tiny edge goes
+constexpr double sliver_shape = 0.15;  // twice the area over the longest edge squared; 0.87 is equilateral
+
+using Corners = std::array<Vec3, 3>;
+
+Vec3 doubled_area_normal_of(const Corners& p) {
+  return cross(p[1] - p[0], p[2] - p[0]);
+}
+
+double longest_edge_squared(const Corners& p) {
+  return std::max({norm_squared(p[1] - p[0]), norm_squared(p[2] - p[1]), norm_squared(p[0] - p[2])});
+}
+
+/// Cosine of the angle between two vectors of known lengths, −1 where one of them has none.
+double cosine(const Vec3& a, double length_a, const Vec3& b, double length_b) {
+  return length_a > 0 && length_b > 0 ? dot(a, b) / (length_a * length_b) : -1;
+}
+
+/// A collapse of v into w under examination.
+struct Candidate {
+  int v, w;
+  double target;  // edge length wanted here
+  bool tiny;      // the edge is tiny, or v is a film vertex of three triangles
+};
+
+struct ShortEdge {
+  double length_squared;
+  int low, high;
+};
+
+class Collapser {
+ public:
+  Collapser(WorkingMesh& work, const TargetLength& target, const RemeshParameters& parameters)
+      : work_(work),
+        mesh_(work.mesh),
+        parameters_(parameters),
+        target_(targets_at_vertices(work.mesh, target)),
+        star_(vertex_stars(work.mesh)),
+        dead_triangle_(work.mesh.n_triangles(), 0),
+        dead_vertex_(work.mesh.n_vertices(), 0),
+        normal_(work.mesh.n_vertices()) {}
+
+  int run() {
+    int n_collapsed = 0;
+    for (int pass = 0; pass < largest_number_of_passes; ++pass) {
+      const int n_this_pass = collapse_listed(begin_pass());
+      n_collapsed += n_this_pass;
+      if (n_this_pass == 0) break;
+    }
+    if (n_collapsed > 0) work_.remove(dead_triangle_);
+    return n_collapsed;
+  }
+
+ private:
+  bool has(int triangle, int v) const {
+    const auto& corner = mesh_.triangle[triangle].vertex;
+    return corner[0] == v || corner[1] == v || corner[2] == v;
+  }
+  double edge_target(int a, int b) const { return 0.5 * (target_[a] + target_[b]); }
+  bool hangs_in_three_triangles(int v) const {
+    return work_.kind(v) == VertexKind::Film && !work_.held[v] && star_[v].size() == 3;
+  }
+  void drop_dead_from_star(int v) {
+    std::erase_if(star_[v], [&](int t) { return dead_triangle_[t]; });
+  }
+
+  /// Fresh stars and normals; the edges to collapse, shortest first, each once.
+  std::vector<ShortEdge> begin_pass();
+  int collapse_listed(const std::vector<ShortEdge>& edges);
+  bool try_collapse(int v, int w);
+  bool is_allowed_by_kind(const Candidate& c, int n_shared) const;
+  bool keeps_topology(const Candidate& c, int n_shared);
+  bool keeps_shape(const Candidate& c, int triangle) const;
+  bool keeps_orientation(const Candidate& c, int triangle, const Corners& before, const Corners& after) const;
+  bool keeps_lengths(const Candidate& c, int triangle, const Corners& after) const;
+  void collapse(int v, int w);
+
+  WorkingMesh& work_;
+  FilmMesh& mesh_;
+  const RemeshParameters& parameters_;
+  std::vector<double> target_;  // at vertices
+  std::vector<std::vector<int>> star_;
+  std::vector<char> dead_triangle_, dead_vertex_;
+  std::vector<Vec3> normal_;          // of film vertices, at the start of the pass
+  std::vector<int> ring_v_, ring_w_;  // scratch of keeps_topology
+};
+
+std::vector<ShortEdge> Collapser::begin_pass() {
+  for (int v = 0; v < mesh_.n_vertices(); ++v) {
+    drop_dead_from_star(v);
+    normal_[v] = {};
+    if (work_.kind(v) != VertexKind::Film) continue;
+    for (int t : star_[v]) normal_[v] += doubled_area_normal(mesh_, t);
+    normal_[v] = normalized(normal_[v]);
+  }
+  std::vector<ShortEdge> edges;
+  for (int t = 0; t < mesh_.n_triangles(); ++t) {
+    if (dead_triangle_[t]) continue;
+    for (int c = 0; c < 3; ++c) {
+      const auto [low, high] =
+          std::minmax(mesh_.triangle[t].vertex[c], mesh_.triangle[t].vertex[(c + 1) % 3]);
+      const double length_squared = norm_squared(mesh_.position[high] - mesh_.position[low]);
+      const double limit = parameters_.collapse_below * edge_target(low, high);
+      if (length_squared < limit * limit || hangs_in_three_triangles(low) || hangs_in_three_triangles(high))
+        edges.push_back({length_squared, low, high});
+    }
+  }
+  const auto key = [](const ShortEdge& e) { return std::tuple(e.length_squared, e.low, e.high); };
+  std::sort(edges.begin(), edges.end(),
+            [&](const ShortEdge& a, const ShortEdge& b) { return key(a) < key(b); });
+  const auto same = [&](const ShortEdge& a, const ShortEdge& b) { return key(a) == key(b); };
+  edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
+  return edges;
+}
+
+int Collapser::collapse_listed(const std::vector<ShortEdge>& edges) {
+  int n_collapsed = 0;
+  for (const ShortEdge& e : edges) {
+    if (dead_vertex_[e.low] || dead_vertex_[e.high]) continue;
+    int v = e.low, w = e.high;  // v goes: the one of lower precedence, or else a needless one
+    if (work_.kind(w) < work_.kind(v) || (work_.kind(w) == work_.kind(v) && hangs_in_three_triangles(w)))
+      std::swap(v, w);
+    if (try_collapse(v, w) || (work_.kind(v) == work_.kind(w) && try_collapse(w, v))) ++n_collapsed;
+  }
+  return n_collapsed;
+}
+
+bool Collapser::try_collapse(int v, int w) {
+  drop_dead_from_star(v);
+  drop_dead_from_star(w);
+  const double target = edge_target(v, w);
+  const bool tiny = norm(mesh_.position[w] - mesh_.position[v]) < parameters_.tiny * target;
+  const Candidate c{v, w, target, tiny || hangs_in_three_triangles(v)};
+
+  const auto n_shared =
+      static_cast<int>(std::count_if(star_[v].begin(), star_[v].end(), [&](int t) { return has(t, w); }));
+  if (!is_allowed_by_kind(c, n_shared) || !keeps_topology(c, n_shared)) return false;
+  for (int t : star_[v])
+    if (!has(t, w) && !keeps_shape(c, t)) return false;
+  collapse(v, w);
+  return true;
+}
+
+bool Collapser::is_allowed_by_kind(const Candidate& c, int n_shared) const {
+  const VertexKind kind = work_.kind(c.v);
+  if (kind == VertexKind::Junction || work_.held[c.v] || !work_.phases[c.w].contains(work_.phases[c.v]))
+    return false;
+  return n_shared == (kind == VertexKind::Border ? 3 : 2);
+}
+
+/// The link condition: the neighbours that v and w share are the third corners of the triangles they share,
+/// and no edge is opposite to both.
+bool Collapser::keeps_topology(const Candidate& c, int n_shared) {
+  const auto collect_ring = [&](int centre, std::vector<int>& ring) {
+    ring.clear();
+    for (int t : star_[centre])
+      for (int x : mesh_.triangle[t].vertex)
+        if (x != c.v && x != c.w) ring.push_back(x);
+    std::sort(ring.begin(), ring.end());
+    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+  };
+  collect_ring(c.v, ring_v_);
+  collect_ring(c.w, ring_w_);
+  const auto n_common = std::count_if(ring_v_.begin(), ring_v_.end(), [&](int x) {
+    return std::binary_search(ring_w_.begin(), ring_w_.end(), x);
+  });
+  if (n_common != n_shared) return false;
+
+  for (int t : star_[c.v]) {
+    if (has(t, c.w)) continue;
+    for (int s : star_[c.w]) {
+      int n_same = 0;
+      for (int x : mesh_.triangle[t].vertex) n_same += x != c.v && has(s, x);
+      if (n_same == 2) return false;
+    }
+  }
+  return true;
+}
+
+/// Whether a triangle of v stays a decent part of its film when v moves to w.
+bool Collapser::keeps_shape(const Candidate& c, int triangle) const {
+  Corners before, after;
+  for (int n = 0; n < 3; ++n) {
+    const int x = mesh_.triangle[triangle].vertex[n];
+    before[n] = mesh_.position[x];
+    after[n] = mesh_.position[x == c.v ? c.w : x];
+  }
+  if (!keeps_orientation(c, triangle, before, after) || !keeps_lengths(c, triangle, after)) return false;
+  if (c.tiny) return true;
+  // Compared as products, since a triangle of three equal points has no shape.
+  const double long_before = longest_edge_squared(before), long_after = longest_edge_squared(after);
+  const double area_before = norm(doubled_area_normal_of(before));
+  const double area_after = norm(doubled_area_normal_of(after));
+  return area_after >= sliver_shape * long_after || area_after * long_before >= area_before * long_after;
+}
+
+/// A turned normal refuses a collapse only if the triangle also gets worse than it was: slivers, of which
+/// borders of a fresh contour are full, have no normal to keep.
+bool Collapser::keeps_orientation(const Candidate& c, int triangle, const Corners& before,
+                                  const Corners& after) const {
+  const Vec3 n_before = doubled_area_normal_of(before), n_after = doubled_area_normal_of(after);
+  const double a_before = norm(n_before), a_after = norm(n_after);
+  const double h2 = c.target * c.target;
+
+  Vec3 film_normal;
+  for (int x : mesh_.triangle[triangle].vertex) film_normal += normal_[x];
+  const double length = norm(film_normal);
+  if (length <=
+      0.3)  // corners on borders only, or normals that cancel: nothing but its own normal to compare with
+    return a_before <= 1e-3 * h2 || dot(n_before, n_after) >= least_cosine * a_before * a_after;
+
+  const double limit = c.tiny ? least_cosine_when_tiny : least_cosine;
+  const double cos_before = cosine(n_before, a_before, film_normal, length);
+  const double cos_after = cosine(n_after, a_after, film_normal, length);
+  const bool gets_worse = cos_after < cos_before + 1e-9;
+  const bool counts = a_after > 1e-2 * h2 || cos_before > limit;
+  return !(cos_after < limit && gets_worse && counts);
+}
+
+bool Collapser::keeps_lengths(const Candidate& c, int triangle, const Corners& after) const {
+  double limit = parameters_.no_edge_beyond;
+  if (parameters_.split_above > 0) limit = std::min(limit, parameters_.split_above);
+  if (c.tiny) limit = std::max(limit, tiny_edge_reach);
+  for (int n = 0; n < 3; ++n) {
+    const int m = (n + 1) % 3;
+    const int a = mesh_.triangle[triangle].vertex[n], b = mesh_.triangle[triangle].vertex[m];
+    const double longest = limit * edge_target(a == c.v ? c.w : a, b == c.v ? c.w : b);
+    if (norm_squared(after[m] - after[n]) > longest * longest) return false;
+  }
+  return true;
+}
+
+void Collapser::collapse(int v, int w) {
+  for (int t : star_[v]) {
+    if (has(t, w)) {
+      dead_triangle_[t] = 1;
+      continue;
+    }
+    std::replace(mesh_.triangle[t].vertex.begin(), mesh_.triangle[t].vertex.end(), v, w);
+    star_[w].push_back(t);
+  }
+  star_[v].clear();
+  dead_vertex_[v] = 1;
+}
+
+}  // namespace
+
+int collapse_short_edges(WorkingMesh& work, const TargetLength& target, const RemeshParameters& parameters) {
+  return Collapser(work, target, parameters).run();
+}
+
+}  // namespace spume::mesh

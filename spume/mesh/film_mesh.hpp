@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "spume/base/vec3.hpp"
+#include "spume/mesh/phase_set.hpp"
+
+namespace spume::mesh {
+
+/// A piece of film between two phases. Its normal, by the right-hand rule over the vertices, points from phase_a into
+/// phase_b, and phase_a < phase_b always.
+struct FilmTriangle {
+  std::array<int, 3> vertex;
+  Phase phase_a, phase_b;
+};
+
+/// The interface: conforming triangles of all films. The same on every rank. Everything else about it (phases of a
+/// vertex, lamellae, Plateau borders, junctions) follows from these two arrays: see topology.hpp.
+struct FilmMesh {
+  std::vector<Vec3> position;  ///< of vertices [m]
+  std::vector<FilmTriangle> triangle;
+
+  int n_vertices() const { return static_cast<int>(position.size()); }
+  int n_triangles() const { return static_cast<int>(triangle.size()); }
+};
+
+/// A triangle between phases p and q whose normal points from p into q, put in the order phase_a < phase_b.
+FilmTriangle make_triangle(int v0, int v1, int v2, Phase p, Phase q);
+
+/// Twice the area times the unit normal: (b − a) × (c − a) [m²].
+Vec3 doubled_area_normal(const FilmMesh& mesh, int triangle);
+double triangle_area(const FilmMesh& mesh, int triangle);
+
+/// Removes vertices that no triangle uses, keeping the order of the others.
+/// Gives the new index of each old vertex, −1 for the removed ones.
+std::vector<int> drop_unused_vertices(FilmMesh& mesh);
+
+}  // namespace spume::mesh

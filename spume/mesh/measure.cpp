@@ -1,0 +1,137 @@
+#include "spume/mesh/measure.hpp"
+
+#include <Eigen/Dense>
+
+namespace spume::mesh {
+
+double film_area(const FilmMesh& mesh) {
+  double area = 0;
+  for (int t = 0; t < mesh.n_triangles(); ++t) area += triangle_area(mesh, t);
+  return area;
+}
+
+std::vector<double> phase_volumes(const FilmMesh& mesh, int n_phases) {
+  std::vector<double> volume(n_phases, 0.0);
+  if (mesh.position.empty()) return volume;
+  // Measured from a vertex of the mesh, so that round-off does not grow with the distance from the origin.
+  const Vec3 o = mesh.position.front();
+  for (const auto& t : mesh.triangle) {
+    const Vec3 a = mesh.position[t.vertex[0]] - o, b = mesh.position[t.vertex[1]] - o,
+               c = mesh.position[t.vertex[2]] - o;
+    const double cone = dot(a, cross(b, c)) / 6;
+    volume[t.phase_a] += cone;
+    volume[t.phase_b] -= cone;
+  }
+  return volume;
+}
+
+std::vector<double> phase_areas(const FilmMesh& mesh, int n_phases) {
+  std::vector<double> area(n_phases, 0.0);
+  for (int t = 0; t < mesh.n_triangles(); ++t) {
+    const double a = triangle_area(mesh, t);
+    area[mesh.triangle[t].phase_a] += a;
+    area[mesh.triangle[t].phase_b] += a;
+  }
+  return area;
+}
+
+std::vector<double> lamella_areas(const FilmMesh& mesh, const Topology& topology) {
+  std::vector<double> area(topology.lamella.size(), 0.0);
+  for (int t = 0; t < mesh.n_triangles(); ++t) area[topology.triangle_lamella[t]] += triangle_area(mesh, t);
+  return area;
+}
+
+std::vector<double> film_dof_areas(const FilmMesh& mesh, const Topology& topology) {
+  std::vector<double> area(topology.film_dof.size(), 0.0);
+  for (int t = 0; t < mesh.n_triangles(); ++t) {
+    const double third = triangle_area(mesh, t) / 3;
+    for (int dof : topology.corner_dof[t]) area[dof] += third;
+  }
+  return area;
+}
+
+std::vector<double> border_dof_lengths(const FilmMesh& mesh, const Topology& topology) {
+  std::vector<double> length(topology.border_dof.size(), 0.0);
+  for (const auto& edge : topology.border_edge) {
+    const double half = 0.5 * norm(mesh.position[edge.vertex[1]] - mesh.position[edge.vertex[0]]);
+    for (int dof : edge.border_dof) length[dof] += half;
+  }
+  return length;
+}
+
+std::vector<double> border_lengths(const FilmMesh& mesh, const Topology& topology) {
+  std::vector<double> length(topology.border.size(), 0.0);
+  for (const auto& edge : topology.border_edge)
+    length[edge.border] += norm(mesh.position[edge.vertex[1]] - mesh.position[edge.vertex[0]]);
+  return length;
+}
+
+std::vector<Vec3> film_dof_normals(const FilmMesh& mesh, const Topology& topology) {
+  std::vector<Vec3> normal(topology.film_dof.size());
+  for (int t = 0; t < mesh.n_triangles(); ++t) {
+    const Vec3 n = doubled_area_normal(mesh, t);
+    for (int dof : topology.corner_dof[t]) normal[dof] += n;
+  }
+  for (auto& n : normal) n = normalized(n);
+  return normal;
+}
+
+std::vector<Vec3> area_descent(const FilmMesh& mesh) {
+  std::vector<Vec3> descent(mesh.position.size());
+  for (int t = 0; t < mesh.n_triangles(); ++t) {
+    const Vec3 n = normalized(doubled_area_normal(mesh, t));
+    const auto& v = mesh.triangle[t].vertex;
+    for (int c = 0; c < 3; ++c) {
+      const Vec3 opposite_edge = mesh.position[v[(c + 2) % 3]] - mesh.position[v[(c + 1) % 3]];
+      descent[v[c]] -= 0.5 * cross(n, opposite_edge);
+    }
+  }
+  return descent;
+}
+
+std::vector<Vec3> weighted_volume_gradient(const FilmMesh& mesh, std::span<const double> value_of_phase) {
+  std::vector<Vec3> gradient(mesh.position.size());
+  for (int t = 0; t < mesh.n_triangles(); ++t) {
+    const auto& triangle = mesh.triangle[t];
+    const double jump = value_of_phase[triangle.phase_a] - value_of_phase[triangle.phase_b];
+    const Vec3 share = (jump / 6) * doubled_area_normal(mesh, t);
+    for (int v : triangle.vertex) gradient[v] += share;
+  }
+  return gradient;
+}
+
+std::vector<double> film_pressures(const FilmMesh& mesh, const Topology& topology, std::span<const Vec3> force,
+                                   int n_phases) {
+  std::vector<Vec3> doubled_area(mesh.position.size());
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (int v : mesh.triangle[t].vertex) doubled_area[v] += doubled_area_normal(mesh, t);
+
+  // Row and column of the outside are written too and left out of the solve.
+  Eigen::MatrixXd laplacian = Eigen::MatrixXd::Zero(n_phases, n_phases);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(n_phases);
+  for (int v = 0; v < mesh.n_vertices(); ++v) {
+    if (topology.vertex_kind[v] != VertexKind::Film || topology.vertex_phases[v].size() != 2) continue;
+    const int a = topology.vertex_phases[v][0], b = topology.vertex_phases[v][1];
+    const double weight = norm(doubled_area[v]) / 6;  // N·∂V/∂x of the vertex
+    const double push = dot(normalized(doubled_area[v]), force[v]);
+    laplacian(a, a) += weight;
+    laplacian(b, b) += weight;
+    laplacian(a, b) -= weight;
+    laplacian(b, a) -= weight;
+    right(a) -= push;
+    right(b) += push;
+  }
+  for (int p = 1; p < n_phases; ++p)
+    if (laplacian(p, p) == 0) laplacian(p, p) = 1;  // no film: pressure 0
+
+  std::vector<double> pressure(n_phases, 0.0);
+  if (n_phases > 1) {
+    const int n = n_phases - 1;
+    const Eigen::VectorXd solution =
+        laplacian.bottomRightCorner(n, n).completeOrthogonalDecomposition().solve(right.tail(n));
+    for (int p = 1; p < n_phases; ++p) pressure[p] = solution(p - 1);
+  }
+  return pressure;
+}
+
+}  // namespace spume::mesh

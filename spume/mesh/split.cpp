@@ -1,0 +1,71 @@
+#include "spume/mesh/split.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace spume::mesh {
+namespace {
+
+struct LongEdge {
+  double relative_length;  // over the target there
+  int edge;
+};
+
+std::vector<LongEdge> long_edges(const FilmMesh& mesh, const EdgeTable& edges, const TargetLength& target,
+                                 double split_above) {
+  const std::vector<double> target_length = targets_at_vertices(mesh, target);
+  std::vector<LongEdge> list;
+  for (std::size_t n = 0; n < edges.edge.size(); ++n) {
+    const MeshEdge& e = edges.edge[n];
+    if (e.n_uses > 3) continue;
+    const double relative_length = norm(mesh.position[e.high] - mesh.position[e.low]) /
+                                   (0.5 * (target_length[e.low] + target_length[e.high]));
+    if (relative_length > split_above) list.push_back({relative_length, static_cast<int>(n)});
+  }
+  std::sort(list.begin(), list.end(), [](const LongEdge& a, const LongEdge& b) {
+    return std::tuple(-a.relative_length, a.edge) < std::tuple(-b.relative_length, b.edge);
+  });
+  return list;
+}
+
+int middle_vertex(WorkingMesh& work, const EdgeTable& edges, const MeshEdge& e, const Projection& project) {
+  PhaseSet phases;
+  for (int n = 0; n < e.n_uses; ++n) {
+    const FilmTriangle& t = work.mesh.triangle[edges.use[e.first_use + n].triangle];
+    phases.insert(t.phase_a);
+    phases.insert(t.phase_b);
+  }
+  const Vec3 middle = 0.5 * (work.mesh.position[e.low] + work.mesh.position[e.high]);
+  const bool is_held = e.n_uses == 1;
+  return work.add_vertex(is_held ? middle : project(middle, phases).value_or(middle), phases, is_held);
+}
+
+void cut(FilmMesh& mesh, const EdgeUse& use, int middle) {
+  FilmTriangle second = mesh.triangle[use.triangle];
+  mesh.triangle[use.triangle].vertex[(use.corner + 1) % 3] = middle;
+  second.vertex[use.corner] = middle;
+  mesh.triangle.push_back(second);
+}
+
+}  // namespace
+
+int split_long_edges(WorkingMesh& work, const TargetLength& target, const Projection& project,
+                     double split_above) {
+  const EdgeTable edges = build_edges(work.mesh);
+  std::vector<char> used(work.mesh.n_triangles(), 0);
+  int n_split = 0;
+  for (const LongEdge& candidate : long_edges(work.mesh, edges, target, split_above)) {
+    const MeshEdge& e = edges.edge[candidate.edge];
+    const auto first = edges.use.begin() + e.first_use, last = first + e.n_uses;
+    if (std::any_of(first, last, [&](const EdgeUse& use) { return used[use.triangle]; })) continue;
+    const int middle = middle_vertex(work, edges, e, project);
+    for (auto use = first; use != last; ++use) {
+      cut(work.mesh, *use, middle);
+      used[use->triangle] = 1;
+    }
+    ++n_split;
+  }
+  return n_split;
+}
+
+}  // namespace spume::mesh

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+#include "spume/mesh/film_mesh.hpp"
+#include "spume/mesh/remesh.hpp"
+#include "spume/mesh/topology.hpp"
+
+namespace spume::mesh {
+
+/// A side of a triangle: from its vertex[corner] to the next one.
+struct EdgeUse {
+  int triangle, corner;
+};
+/// An edge of the mesh, low < high, and its uses: EdgeTable::use[first_use … first_use + n_uses).
+struct MeshEdge {
+  int low, high;
+  int first_use, n_uses;
+};
+/// All edges in the order of (low, high); the uses of each in triangle order.
+struct EdgeTable {
+  std::vector<MeshEdge> edge;
+  std::vector<EdgeUse> use;
+};
+EdgeTable build_edges(const FilmMesh& mesh);
+
+/// Triangles at each vertex, in increasing order.
+std::vector<std::vector<int>> vertex_stars(const FilmMesh& mesh);
+
+/// Wanted edge length at each vertex [m].
+std::vector<double> targets_at_vertices(const FilmMesh& mesh, const TargetLength& target);
+
+/// A mesh while it is being remeshed, with what every operation must keep up to date.
+struct WorkingMesh {
+  explicit WorkingMesh(FilmMesh& film_mesh);
+
+  /// By the number of phases: precedence is in the order of the enumeration.
+  VertexKind kind(int v) const {
+    return phases[v].size() <= 2   ? VertexKind::Film
+           : phases[v].size() == 3 ? VertexKind::Border
+                                   : VertexKind::Junction;
+  }
+  /// Adds a vertex and gives its number.
+  int add_vertex(const Vec3& position, const PhaseSet& vertex_phases, bool is_held);
+  /// Removes the marked triangles and the vertices that nothing uses any more.
+  void remove(const std::vector<char>& dead_triangle);
+
+  FilmMesh& mesh;
+  std::vector<PhaseSet> phases;  ///< that meet at each vertex
+  std::vector<char>
+      held;  ///< vertices on an edge of a single triangle, where a film ends: they stay as they are
+};
+
+}  // namespace spume::mesh

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace spume::parallel {
+
+/// The ranks that share one simulation. A light handle; copies refer to the same ranks.
+/// Every member function but rank() and size() is Collective.
+class Communicator {
+ public:
+  static Communicator world() { return Communicator(MPI_COMM_WORLD); }
+  explicit Communicator(MPI_Comm comm);
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+  bool is_root() const { return rank_ == 0; }
+  MPI_Comm handle() const { return comm_; }
+
+  /// The results of these reductions are bitwise the same on every rank.
+  double sum(double value) const;
+  double max(double value) const;
+  double min(double value) const;
+  bool any(bool value) const;
+  /// Element-wise sum in place. Where all ranks but one hold zero, the result is exact.
+  void sum(std::span<double> values) const;
+
+  void broadcast(std::span<double> values, int root = 0) const;
+  void broadcast(std::string& text, int root = 0) const;
+  void barrier() const;
+
+  /// Runs `work` on rank 0 only; an exception there is thrown on every rank with the same type and message
+  /// (InputError, NumericalError, Interrupted, or std::runtime_error for every other), so that all ranks fail together.
+  template <class Work>
+  void on_root(Work&& work) const;
+  /// Runs `work` on every rank; a failure of one becomes a failure of all, with the type and message of the lowest rank
+  /// that failed. A rank must not fail between collective calls inside `work`: the others would wait for it for ever.
+  template <class Work>
+  void together(Work&& work) const;
+
+ private:
+  enum class Failure { None, Input, Numerical, Interruption, Other };
+  void rethrow_together(Failure failure, std::string message) const;
+
+  MPI_Comm comm_;
+  int rank_, size_;
+};
+
+}  // namespace spume::parallel
+
+#include "spume/parallel/communicator_together.hpp"

@@ -1,0 +1,54 @@
+#include "spume/simulation/cycle.hpp"
+
+#include <algorithm>
+
+#include "spume/simulation/drain_films.hpp"
+#include "spume/simulation/rearrange.hpp"
+#include "spume/simulation/tear.hpp"
+
+namespace spume::simulation {
+
+namespace {
+
+bool includes(const Case& run_case, Stage stage) {
+  const auto& stages = run_case.cycle.stages;
+  return std::find(stages.begin(), stages.end(), stage) != stages.end();
+}
+
+bool is_over(const Case& run_case, const RunState& run) {
+  const int bubbles = run.foam.phases.n_bubbles();
+  const bool collapsed = bubbles == 0 || (bubbles == 1 && run.bubbles_at_start > 1);
+  return collapsed || run.ruptures >= run_case.cycle.max_ruptures || run.foam.time >= run_case.cycle.end_time;
+}
+
+void enter(Stage stage, RunState& run, Witness& witness) {
+  run.stage = stage;
+  run.rearrange = {};
+  witness.checkpoint(run);
+}
+
+}  // namespace
+
+void cycle(const grid::Grid& grid, const Case& run_case, RunState& run, Witness& witness) {
+  for (;;) {
+    if (run.stage == Stage::Rearrange) {
+      if (includes(run_case, Stage::Rearrange)) rearrange(grid, run_case, run, witness);
+      if (is_over(run_case, run)) return;
+      enter(Stage::Drain, run, witness);
+    }
+    const auto weakest = includes(run_case, Stage::Drain)     ? drain_films(grid, run_case, run, witness)
+                         : includes(run_case, Stage::Rupture) ? weakest_lamella(grid, run_case, run.foam)
+                                                              : std::nullopt;
+    if (!weakest || !includes(run_case, Stage::Rupture)) return;
+    run.stage = Stage::Rupture;
+    const auto update = tear(grid, run_case, weakest->phase_a, weakest->phase_b, run.foam);
+    ++run.ruptures;
+    witness.events(update.events);
+    witness.frame(run, update.topology);
+    run.next_frame = run.foam.time;
+    enter(Stage::Rearrange, run, witness);
+    if (run.foam.phases.n_bubbles() == 0) return;
+  }
+}
+
+}  // namespace spume::simulation

@@ -1,0 +1,37 @@
+#include "spume/simulation/equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace spume::simulation {
+
+double equilibrium_window(const state::Phases& phases, const state::Materials& materials) {
+  double volume = 0;
+  for (int p = 1; p < phases.count(); ++p) volume += phases.target_volume[p];
+  const double mean_volume = volume / std::max(1, phases.n_bubbles());
+  const double radius_cubed = mean_volume * 3 / (4 * std::numbers::pi);
+  return 3 * std::sqrt(materials.gas.density * radius_cubed / (2 * materials.film.surface_tension));
+}
+
+EquilibriumMeasure measure_equilibrium(RearrangeState& rearrange, double window, double kinetic_energy,
+                                       double film_area, double surface_tension) {
+  auto& time = rearrange.recent_time;
+  time.push_back(rearrange.elapsed);
+  rearrange.recent_kinetic_energy.push_back(kinetic_energy);
+  rearrange.recent_area.push_back(film_area);
+  const auto old = std::find_if(time.begin(), time.end(), [&](double t) { return t > rearrange.elapsed - window; });
+  const std::ptrdiff_t n_old = std::max<std::ptrdiff_t>(0, old - time.begin() - 1);
+  for (auto* list : {&rearrange.recent_time, &rearrange.recent_kinetic_energy, &rearrange.recent_area})
+    list->erase(list->begin(), list->begin() + n_old);
+
+  EquilibriumMeasure measure;
+  measure.window_full = time.back() - time.front() >= window;
+  const double energy =
+      *std::max_element(rearrange.recent_kinetic_energy.begin(), rearrange.recent_kinetic_energy.end());
+  measure.amplitude = std::sqrt(energy / (2 * surface_tension * film_area));
+  measure.area_change = std::abs(rearrange.recent_area.front() / film_area - 1);
+  return measure;
+}
+
+}  // namespace spume::simulation

@@ -1,0 +1,78 @@
+#include "spume/simulation/film_update.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace spume::simulation {
+
+namespace {
+
+using PhasePairs = std::set<std::pair<mesh::Phase, mesh::Phase>>;
+
+PhasePairs phase_pairs(const mesh::Topology& topology) {
+  PhasePairs pairs;
+  for (const auto& lamella : topology.lamella) pairs.insert({lamella.phase_a, lamella.phase_b});
+  return pairs;
+}
+
+std::string list(const PhasePairs& all, const PhasePairs& without) {
+  std::string text;
+  for (const auto& [a, b] : all)
+    if (!without.contains({a, b})) text += fmt::format("{}{}|{}", text.empty() ? "" : " ", a, b);
+  return text.empty() ? "none" : text;
+}
+
+state::Event describe(double time, const interface::ReconstructReport::PhaseChange& change) {
+  using Kind = interface::ReconstructReport::PhaseChange::Kind;
+  switch (change.kind) {
+    case Kind::Split:
+      return {time, "bubble split",
+              fmt::format("a piece of bubble {} is bubble {} now; volume {:.4g} m3", change.phase, change.other,
+                          change.volume)};
+    case Kind::Pocket:
+      return {time, "pocket",
+              fmt::format("an enclosed piece of the outside is bubble {} now; volume {:.4g} m3", change.other,
+                          change.volume)};
+    case Kind::Absorbed:
+      return {time, "piece absorbed",
+              fmt::format("a piece of phase {} too small to keep went to its neighbours; volume {:.4g} m3",
+                          change.phase, change.volume)};
+    case Kind::Lost:
+      return {time, "bubble lost",
+              fmt::format("bubble {} is too small for the grid; its gas of {:.4g} m3 went to phase {}", change.phase,
+                          change.volume, change.other)};
+  }
+  return {time, "phase change", ""};
+}
+
+}  // namespace
+
+FilmUpdate reconstruct_films(const grid::Grid& grid, const Case& run_case, state::Foam& foam) {
+  const PhasePairs before = phase_pairs(mesh::build_topology(foam.films));
+  auto reconstruction = interface::reconstruct(grid, foam.films, foam.phases, run_case.reconstruct);
+
+  FilmUpdate update;
+  update.reconstruction = std::move(reconstruction.report);
+  update.potentials = std::move(reconstruction.potentials);
+  update.topology = replace_films(run_case, grid.h(), std::move(reconstruction.films), foam, update.transfer);
+  for (const auto& change : update.reconstruction.changes) update.events.push_back(describe(foam.time, change));
+  const PhasePairs after = phase_pairs(update.topology);
+  if (before != after && update.reconstruction.changes.empty())
+    update.events.push_back(
+        {foam.time, "T1", fmt::format("films gone: {}; films new: {}", list(before, after), list(after, before))});
+  return update;
+}
+
+mesh::Topology replace_films(const Case& run_case, double h, mesh::FilmMesh films, state::Foam& foam,
+                             transport::TransferReport& report) {
+  const mesh::Topology old_topology = mesh::build_topology(foam.films);
+  mesh::Topology topology = mesh::build_topology(films);
+  foam.liquid = transport::transfer(foam.films, old_topology, foam.liquid, films, topology, h, run_case.transport, report);
+  foam.films = std::move(films);
+  return topology;
+}
+
+}  // namespace spume::simulation

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "spume/interface/reconstruct.hpp"
+#include "spume/mesh/topology.hpp"
+#include "spume/simulation/case.hpp"
+#include "spume/state/events.hpp"
+#include "spume/state/foam.hpp"
+
+namespace spume::simulation {
+
+/// What came of a new film mesh.
+struct FilmUpdate {
+  mesh::Topology topology;
+  std::shared_ptr<const interface::PhasePotentials> potentials;
+  interface::ReconstructReport reconstruction;
+  transport::TransferReport transfer;
+  std::vector<state::Event> events;  ///< T1, bubble split, pocket, piece absorbed, bubble lost
+};
+
+/// Reconstructs the films of a foam and carries the liquid over. A change of the set of phase pairs that share films is
+/// reported as a T1. Collective.
+FilmUpdate reconstruct_films(const grid::Grid& grid, const Case& run_case, state::Foam& foam);
+
+/// Gives the foam another mesh of the same films, with its liquid.
+mesh::Topology replace_films(const Case& run_case, double h, mesh::FilmMesh films, state::Foam& foam,
+                             transport::TransferReport& report);
+
+}  // namespace spume::simulation

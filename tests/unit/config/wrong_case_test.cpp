@@ -1,0 +1,170 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "sample_case.hpp"
+#include "spume/base/error.hpp"
+#include "spume/config/read_case.hpp"
+
+namespace spume::config {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// The report on a wrong case; empty when the case was taken for right.
+std::string report(const std::string& text, const std::vector<std::string>& options = {}) {
+  try {
+    parse_case(text, "wrong.toml", options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(WrongCase, unknown_key_has_its_place_and_the_nearest_key) {
+  EXPECT_EQ(report(sample_case + "[gas]\ndensty = 1\n"),
+            "wrong.toml:10:1: unknown key 'gas.densty'; did you mean 'gas.density'?");
+}
+
+TEST(WrongCase, key_far_from_all_others_gets_the_list_of_its_section) {
+  EXPECT_THAT(report(sample_case + "[gas]\ntemperature = 300\n"),
+              HasSubstr("unknown key 'gas.temperature'; [gas] has density, viscosity"));
+}
+
+TEST(WrongCase, misspelt_section_is_one_problem_whatever_it_holds) {
+  EXPECT_EQ(report(sample_case + "[rearangement]\ncfl = 0.5\nmax_time = 1\n"),
+            "wrong.toml:9:2: unknown section 'rearangement'; did you mean 'rearrangement'?");
+  EXPECT_THAT(report(sample_domain + "[[foam.bubbles]]\nradius = 1\n"),
+              HasSubstr("unknown section 'foam.bubbles'; did you mean 'foam.bubble'?"));
+}
+
+TEST(WrongCase, wrong_type_says_what_is_wanted_and_what_was_found) {
+  EXPECT_EQ(report(sample_case + "[gas]\ndensity = \"air\"\n"),
+            "wrong.toml:10:11: 'gas.density' must be a number > 0, not the text \"air\"");
+  EXPECT_THAT(report(sample_case + "[foam]\nequilibrate = 1\n"),
+              HasSubstr("'foam.equilibrate' must be true or false, not 1"));
+  EXPECT_THAT(report(sample_case + "[cycle]\nmax_ruptures = 2.5\n"),
+              HasSubstr("'cycle.max_ruptures' must be a whole number ≥ 0, not 2.5"));
+  EXPECT_THAT(report("gravity = [0, 0]\n" + sample_case),
+              HasSubstr("'gravity' must be an array of three numbers, not [0, 0]"));
+  EXPECT_THAT(report("domain = 5\n" + sample_bubble), HasSubstr("'domain' is a section"));
+  EXPECT_THAT(report(sample_case + "[foam]\nremove_lamella = [1, 2]\n"),
+              HasSubstr("a list of pairs of phases"));
+}
+
+TEST(WrongCase, value_out_of_range_is_told_with_the_range) {
+  EXPECT_THAT(report(sample_case + "[gas]\ndensity = -1\n"),
+              HasSubstr("'gas.density' must be a number > 0, not -1"));
+  EXPECT_THAT(report(sample_case + "[gas]\ndensity = nan\n"),
+              HasSubstr("'gas.density' must be a number > 0"));
+  EXPECT_THAT(report(sample_case + "[gas]\ndensity = inf\n"),
+              HasSubstr("'gas.density' must be a number > 0"));
+  EXPECT_THAT(report(sample_case + "[rearrangement]\ncfl = 1.5\n"), HasSubstr("> 0, ≤ 1, not 1.5"));
+  EXPECT_THAT(report(sample_case, {"foam.cluster.seed=-3"}), HasSubstr("must be a whole number ≥ 0, not -3"));
+  EXPECT_THAT(report(sample_case, {"cycle.max_ruptures=3000000000"}), HasSubstr("must be a whole number"));
+}
+
+TEST(WrongCase, name_that_is_no_choice_is_told_with_the_choices) {
+  EXPECT_THAT(report(sample_case, {R"(domain.boundary=["wall", "wall", "walls"])"}),
+              AllOf(HasSubstr("'domain.boundary'"), HasSubstr("\"periodic\", \"wall\", \"slip\""),
+                    HasSubstr("not the text \"walls\"; did you mean 'wall'?")));
+  EXPECT_THAT(report(sample_case, {R"(cycle.stages=["rearrange", "melt"])"}),
+              HasSubstr("not the text \"melt\""));
+  EXPECT_THAT(report(sample_case, {R"(cycle.stages=["drain", "drain"])"}),
+              HasSubstr("names \"drain\" twice"));
+  EXPECT_THAT(report(sample_case, {"cycle.stages=[]"}), HasSubstr("a list of one or more of"));
+}
+
+TEST(WrongCase, feature_of_a_later_version_is_called_that) {
+  const std::string words = "is not available in this version";
+  EXPECT_THAT(report(sample_case + "[foam.membrane]\npoint = [0, 0, 0]\n"), HasSubstr(words));
+  EXPECT_THAT(report(sample_domain + "[foam.lattice]\nstructure = \"kelvin\"\n"),
+              HasSubstr("'foam.lattice'"));
+  EXPECT_THAT(report(sample_domain + "[foam.labels]\nfile = \"a.vti\"\n"), HasSubstr("'foam.labels'"));
+  EXPECT_THAT(
+      report(sample_case, {"rearrangement.interface=viim"}),
+      HasSubstr("'rearrangement.interface' = \"viim\" is not available in this version; use \"mesh\""));
+}
+
+TEST(WrongCase, all_problems_are_in_one_report_in_the_order_of_the_file) {
+  const std::string text = report(sample_case + "[gas]\nviscosity = -1\ndensty = 1\n[cycle]\nstages = 3\n");
+  EXPECT_EQ(std::ranges::count(text, '\n'), 2) << text;
+  const auto first = text.find("gas.viscosity"), second = text.find("gas.densty"),
+             third = text.find("cycle.stages");
+  EXPECT_LT(first, second);
+  EXPECT_LT(second, third);
+  EXPECT_NE(third, std::string::npos);
+}
+
+TEST(WrongCase, syntax_error_has_its_place) {
+  EXPECT_THAT(report("title = \n"), testing::StartsWith("wrong.toml:1:"));
+  EXPECT_THAT(report(sample_case + "[gas]\ndensity = 1\ndensity = 2\n"),
+              testing::StartsWith("wrong.toml:11:"));
+  EXPECT_THAT(report(sample_case + "[gas]\ndensity = 1\n[gas]\nviscosity = 2\n"),
+              testing::StartsWith("wrong.toml:11:"));
+}
+
+TEST(WrongCase, missing_keys_are_named) {
+  const std::string text = report("[domain]\nlower = [0, 0, 0]\n" + sample_bubble);
+  EXPECT_THAT(text, AllOf(HasSubstr("wrong.toml:1:2: missing key 'domain.upper'"),
+                          HasSubstr("missing key 'domain.cells'")));
+}
+
+TEST(WrongCase, cells_that_are_no_cubes_are_told_with_their_edges) {
+  EXPECT_THAT(report(sample_case, {"domain.cells=[32, 32, 40]"}),
+              AllOf(HasSubstr("--set domain.cells=[32, 32, 40]: cells must be cubes"),
+                    HasSubstr("0.00025 × 0.00025 × 0.0002 m")));
+}
+
+TEST(WrongCase, box_needs_an_inside_and_enough_cells) {
+  EXPECT_THAT(report(sample_case, {"domain.upper=[0.004, -0.004, 0.004]"}),
+              HasSubstr("'domain.upper' must be larger than 'domain.lower' along y"));
+  EXPECT_THAT(report(sample_case, {"domain.cells=[8, 8, 8]"}), HasSubstr("three whole numbers ≥ 16"));
+}
+
+TEST(WrongCase, bubble_too_near_to_the_edge_of_the_box_is_told_with_its_reach) {
+  EXPECT_EQ(report(sample_domain +
+                   "[[foam.bubble]]\nshape = \"sphere\"\ncenter = [0.002, 0, 0]\nradius = 0.0015\n"),
+            "wrong.toml:5:1: bubble 1 reaches from 0.0005 to 0.0035 m along x; it must stay 4 cells inside "
+            "the box, "
+            "between -0.003 and 0.003 m");
+}
+
+TEST(WrongCase, bubble_lacks_or_has_what_does_not_go_with_its_shape) {
+  EXPECT_THAT(report(sample_domain + "[[foam.bubble]]\nradius = 0.001\n"),
+              AllOf(HasSubstr("bubble 1 has no 'shape'"), HasSubstr("bubble 1 has no 'center'")));
+  EXPECT_THAT(
+      report(sample_domain + "[[foam.bubble]]\nshape = \"ellipsoid\"\ncenter = [0, 0, 0]\nradius = 0.001\n"),
+      AllOf(HasSubstr("bubble 1, an ellipsoid, has no 'semi_axes'"), HasSubstr("no 'radius'")));
+  EXPECT_THAT(report(sample_case + "colour = 3\n"), HasSubstr("unknown key 'foam.bubble.colour'"));
+  EXPECT_THAT(
+      report(sample_domain + "[[foam.bubble]]\nshape = \"sphere\"\ncenter = [0, 0, 0]\nradius = -0.001\n"),
+      HasSubstr("wrong.toml:8:10: bubble 1: 'foam.bubble.radius' must be a number > 0, not -0.001"));
+}
+
+TEST(WrongCase, case_without_bubbles_is_refused) {
+  EXPECT_THAT(report(sample_domain), HasSubstr("no bubbles"));
+}
+
+TEST(WrongCase, pair_of_phases_that_does_not_exist_is_refused) {
+  EXPECT_THAT(report(sample_case, {"foam.remove_lamella=[[1, 2]]"}), HasSubstr("there is no phase 2"));
+  EXPECT_THAT(report(sample_case, {"rupture.protect=[[1, 1]]"}), HasSubstr("between phase 1 and itself"));
+}
+
+TEST(WrongCase, bad_option_is_named_as_it_was_typed) {
+  EXPECT_EQ(report(sample_case, {"cycle.endtime=3"}),
+            "--set cycle.endtime=3: unknown key 'cycle.endtime'; did you mean 'cycle.end_time'?");
+  EXPECT_THAT(report(sample_case, {"cycle.end_time"}),
+              HasSubstr("--set cycle.end_time: an option has the form"));
+  EXPECT_THAT(report(sample_case, {"cycle.end_time="}), HasSubstr("no value"));
+  EXPECT_THAT(report(sample_case, {"cycle.end_time=[1"}), testing::StartsWith("--set cycle.end_time=[1: "));
+}
+
+TEST(ReadText, file_that_cannot_be_read_is_named) {
+  EXPECT_THROW(read_text("/nonexistent/case.toml"), InputError);
+  EXPECT_THROW(read_text("/"), InputError);
+}
+
+}  // namespace
+}  // namespace spume::config

@@ -1,0 +1,188 @@
+#include "spume/grid/kernel_coupling.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "boxes.hpp"
+#include "spume/base/error.hpp"
+
+namespace spume::grid {
+namespace {
+
+using parallel::Communicator;
+
+class KernelCouplingOn : public testing::TestWithParam<NamedBox> {};
+INSTANTIATE_TEST_SUITE_P(Boxes, KernelCouplingOn, testing::ValuesIn(test_boxes()),
+                         [](const auto& test) { return test.param.name; });
+
+/// Points all over the box, up to its faces.
+std::vector<Vec3> random_points(const Box& box, int n) {
+  Random random(99);
+  std::vector<Vec3> points(n);
+  for (Vec3& point : points)
+    for (int axis = 0; axis < 3; ++axis) point[axis] = random.uniform(box.lower[axis], box.upper[axis]);
+  points.push_back(box.lower);
+  points.push_back(box.upper);
+  return points;
+}
+
+std::vector<Vec3> random_vectors(std::size_t n) {
+  Random random(123);
+  std::vector<Vec3> vectors(n);
+  for (Vec3& v : vectors)
+    for (int axis = 0; axis < 3; ++axis) v[axis] = 1e-9 * random.uniform(-1, 1);
+  return vectors;
+}
+
+// Work of spread forces = work on the points. Both sides are sums of about 1e5 products: 1e-12 of the sum of their sizes.
+TEST_P(KernelCouplingOn, SpreadAndSampleAreAdjoint) {
+  const Grid grid(Communicator::world(), GetParam().box);
+  const double cell_volume = grid.h() * grid.h() * grid.h();
+  VectorField u(grid), density(grid);
+  for (int c = 0; c < 3; ++c) fill_random(u[c], 10 * c + 1);
+  const std::vector<Vec3> points = random_points(grid.box(), 500), forces = random_vectors(points.size());
+  for (const double half_width : {1.0, 1.5, 2.0, 2.3}) {
+    const KernelCoupling coupling{half_width};
+    for (int c = 0; c < 3; ++c) density[c].fill(0);
+    coupling.spread(points, forces, density);
+    std::vector<Vec3> velocities;
+    coupling.sample(u, points, velocities);
+    double on_points = 0, on_grid = 0, size = 0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      on_points += dot(forces[p], velocities[p]);
+      size += norm(forces[p]) * norm(velocities[p]);
+    }
+    for (int c = 0; c < 3; ++c) {
+      Field product = density[c];
+      for (std::size_t m = 0; m < product.values().size(); ++m) product.values()[m] *= u[c].values()[m];
+      on_grid += cell_volume * sum(product);
+    }
+    EXPECT_GT(size, 0);
+    EXPECT_NEAR(on_points, on_grid, 1e-12 * size);
+  }
+}
+
+TEST_P(KernelCouplingOn, SamplingAConstantEvenFieldGivesTheConstant) {
+  const Grid grid(Communicator::world(), GetParam().box);
+  VectorField u(grid);
+  for (int c = 0; c < 3; ++c) {
+    u[c] = Field(grid, even_symmetry);
+    u[c].fill(c + 1.0);
+  }
+  std::vector<Vec3> velocities;
+  for (const double half_width : {1.0, 1.5, 2.0}) {
+    KernelCoupling{half_width}.sample(u, random_points(grid.box(), 200), velocities);
+    for (const Vec3& v : velocities) EXPECT_NEAR(norm(v - Vec3{1, 2, 3}), 0, 1e-14);
+  }
+}
+
+TEST_P(KernelCouplingOn, SpreadingIntoEvenFieldsKeepsTheTotalForce) {
+  const Grid grid(Communicator::world(), GetParam().box);
+  VectorField density(grid);
+  for (int c = 0; c < 3; ++c) density[c] = Field(grid, even_symmetry);
+  const std::vector<Vec3> points = random_points(grid.box(), 200), forces = random_vectors(points.size());
+  KernelCoupling{}.spread(points, forces, density);
+  const double cell_volume = grid.h() * grid.h() * grid.h();
+  for (int c = 0; c < 3; ++c) {
+    double total = 0, size = 0;
+    for (const Vec3& force : forces) {
+      total += force[c];
+      size += std::abs(force[c]);
+    }
+    EXPECT_NEAR(cell_volume * sum(density[c]), total, 1e-13 * size);
+  }
+}
+
+/// The kernel as the documentation writes it: δ(r) = Π (1 + cos(π r_d/ζ))/(2ζ) over cells and all their images.
+double sample_by_definition(const Field& u, const Vec3& point, double zeta) {
+  const Grid& grid = u.grid();
+  const auto ghosts = ghosted<3>(u);
+  const double h = grid.h();
+  const auto delta = [&](double r) {
+    return std::abs(r) < zeta ? (1 + std::cos(std::numbers::pi * r / zeta)) / (2 * zeta) : 0;
+  };
+  const Index3 n = grid.cells();
+  double total = 0;
+  // Ghosts of the slab count only where they lie beyond the box; the others are another rank's cells.
+  const int k_begin = grid.z_begin() == 0 ? -3 : grid.z_begin();
+  const int k_end = grid.z_end() == n.k ? n.k + 3 : grid.z_end();
+  for (int k = k_begin; k < k_end; ++k)
+    for (int j = -3; j < n.j + 3; ++j)
+      for (int i = -3; i < n.i + 3; ++i) {
+        const Vec3 r = grid.centre(i, j, k) - point;
+        total += ghosts(i, j, k) * delta(r.x) * delta(r.y) * delta(r.z);
+      }
+  return grid.communicator().sum(h * h * h * total);
+}
+
+TEST_P(KernelCouplingOn, SampleIsTheConvolutionWithTheContinuedField) {
+  const Grid grid(Communicator::world(), GetParam().box);
+  VectorField u(grid);
+  for (int c = 0; c < 3; ++c) fill_random(u[c], 100 * c + 7);
+  const std::vector<Vec3> points = random_points(grid.box(), 8);
+  std::vector<Vec3> velocities;
+  for (const double half_width : {1.5, 2.3}) {
+    KernelCoupling{half_width}.sample(u, points, velocities);
+    for (std::size_t p = 0; p < points.size(); ++p)
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(velocities[p][c], sample_by_definition(u[c], points[p], half_width * grid.h()), 1e-13);
+  }
+}
+
+TEST_P(KernelCouplingOn, ResultsAreTheSameToTheLastBitOnAnyNumberOfRanks) {
+  const Grid grid(Communicator::world(), GetParam().box);
+  const Grid serial(Communicator(MPI_COMM_SELF), GetParam().box);
+  const std::vector<Vec3> points = random_points(grid.box(), 100), forces = random_vectors(points.size());
+  VectorField u(grid), u_serial(serial);
+  KernelCoupling{}.spread(points, forces, u);
+  KernelCoupling{}.spread(points, forces, u_serial);
+  std::vector<Vec3> velocities, velocities_serial;
+  KernelCoupling{}.sample(u, points, velocities);
+  KernelCoupling{}.sample(u_serial, points, velocities_serial);
+  for (int c = 0; c < 3; ++c) EXPECT_EQ(gather(u[c]), gather(u_serial[c]));
+  EXPECT_EQ(velocities, velocities_serial);
+}
+
+TEST(KernelCoupling, PointsOutsideAPeriodicBoxActAsTheirImages) {
+  const Grid grid(Communicator::world(), test_boxes()[0].box);
+  VectorField u(grid);
+  for (int c = 0; c < 3; ++c) fill_random(u[c], c);
+  const Vec3 point = grid.centre(3, 4, 5) + 0.3 * grid.h() * Vec3{1, 1, 1};
+  const Vec3 size = grid.box().size();
+  const std::vector<Vec3> points{point, point + size, point - 2.0 * size};
+  std::vector<Vec3> velocities;
+  KernelCoupling{}.sample(u, points, velocities);
+  // The image's coordinates are rounded: some ulp of 1e-3 m against h = 2.5e-5 m.
+  EXPECT_NEAR(norm(velocities[1] - velocities[0]), 0, 1e-12);
+  EXPECT_NEAR(norm(velocities[2] - velocities[0]), 0, 1e-12);
+}
+
+TEST(KernelCoupling, VelocityVanishesOnNoSlipWallsAndItsNormalPartOnSlipWalls) {
+  const Grid grid(Communicator::world(), test_boxes()[2].box);  // periodic, slip, wall
+  VectorField u(grid);
+  for (int c = 0; c < 3; ++c) fill_random(u[c], c);
+  const Box& box = grid.box();
+  const Vec3 inside = box.lower + 0.4 * box.size();
+  const std::vector<Vec3> points{{inside.x, inside.y, box.lower.z}, {inside.x, box.upper.y, inside.z}};
+  std::vector<Vec3> velocities;
+  KernelCoupling{}.sample(u, points, velocities);
+  // Round-off of the distance to the lower face, 16 cells, in cells.
+  EXPECT_NEAR(norm(velocities[0]), 0, 1e-13);
+  EXPECT_NEAR(velocities[1].y, 0, 1e-13);
+  EXPECT_GT(std::abs(velocities[1].x), 1e-3);
+  EXPECT_GT(std::abs(velocities[1].z), 1e-3);
+}
+
+TEST(KernelCoupling, LostPointsAreANumericalError) {
+  const Grid grid(Communicator::world(), test_boxes()[0].box);
+  VectorField u(grid);
+  std::vector<Vec3> velocities;
+  const std::vector<Vec3> not_a_number{{0, std::numeric_limits<double>::quiet_NaN(), 0}}, far{{1e300, 0, 0}};
+  EXPECT_THROW(KernelCoupling{}.sample(u, not_a_number, velocities), NumericalError);
+  EXPECT_THROW(KernelCoupling{}.spread(far, far, u), NumericalError);
+}
+
+}  // namespace
+}  // namespace spume::grid

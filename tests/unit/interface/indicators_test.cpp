@@ -1,0 +1,97 @@
+#include "spume/interface/indicators.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "analytic_foams.hpp"
+#include "spume/mesh/measure.hpp"
+
+namespace spume::interface {
+namespace {
+
+using testing::h;
+
+/// A ball's indicator smoothed by a Gaussian of variance s, at the distance r from its centre.
+double gaussian_ball(double radius, double r, double s) {
+  const double width = std::sqrt(2 * s);
+  const double near = (radius - r) / width, far = (radius + r) / width;
+  return 0.5 * (std::erf(near) + std::erf(far)) -
+         std::sqrt(s / (2 * std::numbers::pi)) / r * (std::exp(-near * near) - std::exp(-far * far));
+}
+
+/// The same for the kernel e^{−z}(1 + z + z²/2): z and z² act as −s ∂/∂s and s² ∂²/∂s² on the Gaussian.
+double smoothed_ball(double radius, double r, double s) {
+  const double step = 1e-3 * s;
+  const double low = gaussian_ball(radius, r, s - step), middle = gaussian_ball(radius, r, s),
+               high = gaussian_ball(radius, r, s + step);
+  return middle - s * (high - low) / (2 * step) + 0.5 * s * s * (high - 2 * middle + low) / (step * step);
+}
+
+std::vector<double> indicator_of(const grid::Grid& grid, const mesh::FilmMesh& films) {
+  const auto midpoints = edge_midpoints(films, mesh::build_topology(films));
+  return smoothed_indicators(grid, films, midpoints, colour_phases(grid, films, 2), 2 * h * h).at(0);
+}
+
+TEST(SmoothedIndicator, OfASphereIsTheExactConvolution) {
+  for (const auto boundary : {grid::Boundary::Periodic, grid::Boundary::Wall}) {
+    grid::Box box = testing::cube_box(32);
+    box.boundary = {boundary, boundary, boundary};
+    const grid::Grid grid(parallel::Communicator::world(), box);
+    const Vec3 centre{0.3 * h, -0.2 * h, 0.1 * h};
+    const double radius = 8 * h;
+    const auto indicator = indicator_of(grid, testing::icosphere(centre, radius, 3));
+    double error = 0;
+    std::size_t n = 0;
+    for_each_cell(all_cells(box.cells), [&](int i, int j, int k) {
+      const double exact = smoothed_ball(radius, norm(grid.centre(i, j, k) - centre), 2 * h * h);
+      error = std::max(error, std::abs(indicator[n++] - exact));
+    });
+    // Edges of 1.3 h: four flat pieces each are off by 1e-3 h, times a slope of 0.5/h.
+    EXPECT_LT(error, 1e-3);
+  }
+}
+
+TEST(SmoothedIndicator, IsOneInsideHalfOnTheFilmAndZeroOutside) {
+  const grid::Grid grid(parallel::Communicator::world(), testing::cube_box(40));
+  const double radius = 12.5 * h;
+  const auto indicator = indicator_of(grid, testing::icosphere({0.5 * h, 0.5 * h, 0.5 * h}, radius, 3));
+  const auto at = [&](int i) { return indicator[all_cells(grid.cells()).offset(i, 20, 20)]; };
+  EXPECT_NEAR(at(20), 1, 1e-3);
+  EXPECT_NEAR(at(2), 0, 1e-3);
+  // 32.5 lies between cells 32 and 33; curvature moves the level ½ by (2/R) s/10 = 0.032 h, a slope of 0.53/h.
+  EXPECT_NEAR(0.5 * (at(32) + at(33)), 0.5 - 0.53 * 0.032, 5e-3);
+}
+
+TEST(SmoothedIndicator, HasTheMeanOfTheEnclosedVolume) {
+  const grid::Grid grid(parallel::Communicator::world(), testing::cube_box(32));
+  const double radius = 8 * h;
+  const auto indicator = indicator_of(grid, testing::icosphere({}, radius, 3));
+  double volume = 0;
+  for (double c : indicator) volume += c * h * h * h;
+  // Curved triangles enclose the ball to fourth order in edge over radius (0.16).
+  EXPECT_NEAR(volume / (4 * std::numbers::pi / 3 * radius * radius * radius), 1, 2e-3);
+}
+
+TEST(PhaseColours, AreSharedOnlyByBubblesFarApart) {
+  const grid::Grid grid(parallel::Communicator::world(), testing::cube_box(64));
+  // Three balls in a row; between the outer two there are 24 cells, between neighbours 8.
+  mesh::FilmMesh films;
+  for (int p = 1; p <= 3; ++p) {
+    auto ball = testing::icosphere({(p - 2) * 16 * h, 0, 0}, 4 * h, 1);
+    const int first = films.n_vertices();
+    films.position.insert(films.position.end(), ball.position.begin(), ball.position.end());
+    for (auto t : ball.triangle) {
+      for (int& v : t.vertex) v += first;
+      t.phase_b = p;
+      films.triangle.push_back(t);
+    }
+  }
+  const PhaseColours colours = colour_phases(grid, films, 5);
+  EXPECT_EQ(colours.n_colours, 2);
+  EXPECT_EQ(colours.colour, (std::vector<int>{-1, 0, 1, 0, -1}));
+}
+
+}  // namespace
+}  // namespace spume::interface

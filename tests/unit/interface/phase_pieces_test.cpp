@@ -1,0 +1,125 @@
+#include "spume/interface/phase_pieces.hpp"
+
+#include <gtest/gtest.h>
+
+#include "analytic_foams.hpp"
+#include "spume/interface/contour.hpp"
+#include "spume/interface/find_films.hpp"
+#include "spume/mesh/measure.hpp"
+
+namespace spume::interface {
+namespace {
+
+using testing::h;
+using Kind = PhaseChange::Kind;
+
+constexpr double smallest_volume = 2.5 * 2.5 * 2.5 * h * h * h;
+
+/// One phase that fills several balls: signed distance to their union.
+testing::Potential union_of(std::vector<testing::Ball> balls) {
+  return [balls = std::move(balls)](mesh::Phase p, const Vec3& x) {
+    double d = -1;
+    for (const auto& b : balls) d = std::max(d, b.radius - norm(x - b.centre));
+    return p == 1 ? d : -d;
+  };
+}
+
+/// Separates until nothing is left to do, as find_films() does; gives the pieces in the end.
+PhasePieces separate(PhasePotentials& potentials, state::Phases& phases, std::vector<PhaseChange>& changes) {
+  for (int n = 0; n < 4; ++n)
+    if (!separate_pieces(potentials, find_winners(potentials), phases, smallest_volume, changes)) break;
+  return find_pieces(potentials.box().cells, find_winners(potentials).phase);
+}
+
+TEST(PhasePieces, AreLinkedAlongTheEdgesOfTheTetrahedra) {
+  const Index3 cells{4, 4, 4};
+  std::vector<mesh::Phase> winner(64, 0);
+  const auto set = [&](int i, int j, int k, mesh::Phase p) { winner[(k * 4 + j) * 4 + i] = p; };
+  set(0, 0, 0, 1);
+  set(1, 1, 1, 1);  // one step along all axes: linked
+  set(2, 0, 2, 2);
+  set(3, 1, 1, 2);  // steps of both signs: not linked
+  const PhasePieces pieces = find_pieces(cells, winner);
+  std::vector<int> of_phase(3, 0);
+  for (const auto& piece : pieces.piece) ++of_phase[piece.phase];
+  EXPECT_EQ(of_phase, (std::vector<int>{1, 1, 2}));
+}
+
+TEST(SeparatePieces, GivesALargePieceANewPhase) {
+  auto potentials = testing::sampled(
+      testing::cube_box(32), union_of({{{-6 * h, 0, 0}, 5 * h}, {{4 * h, 0.3 * h, 0}, 3 * h}}), 2);
+  auto phases = testing::unset_phases(1);
+  phases.target_volume[1] = 7e-10;
+  std::vector<PhaseChange> changes;
+  const auto found = find_films(potentials, phases, smallest_volume, changes);
+  ASSERT_EQ(changes.size(), 1u);
+  EXPECT_EQ(changes[0].kind, Kind::Split);
+  EXPECT_EQ(changes[0].other, 2);
+  ASSERT_EQ(phases.count(), 3);
+  // The targets share the old one in proportion to the volumes on the mesh.
+  const auto volume = mesh::phase_volumes(found.films, 3);
+  EXPECT_NEAR(phases.target_volume[1] + phases.target_volume[2], 7e-10, 1e-24);
+  EXPECT_NEAR(phases.target_volume[2] / phases.target_volume[1], volume[2] / volume[1], 1e-12);
+  EXPECT_NEAR(volume[2] / volume[1], 0.216, 0.01);  // (3/5)³, and what linear interpolation leaves out
+  EXPECT_EQ(found.topology.n_nonconforming_edges, 0);
+}
+
+TEST(SeparatePieces, LeavesFilmsOfBothPiecesWhereTheyWere) {
+  const auto balls = union_of({{{-6 * h, 0, 0}, 5 * h}, {{4 * h, 0.3 * h, 0}, 3 * h}});
+  const auto before = testing::sampled(testing::cube_box(32), balls, 2);
+  auto after = before;
+  auto phases = testing::unset_phases(1);
+  std::vector<PhaseChange> changes;
+  separate(after, phases, changes);
+  const auto one = contour(before, find_winners(before).phase), two = contour(after, find_winners(after).phase);
+  ASSERT_EQ(one.n_vertices(), two.n_vertices());
+  for (int v = 0; v < one.n_vertices(); ++v) EXPECT_LT(norm(one.position[v] - two.position[v]), 1e-12 * h);
+}
+
+TEST(SeparatePieces, GivesASmallPieceToItsNeighbours) {
+  auto potentials = testing::sampled(
+      testing::cube_box(32), union_of({{{-6 * h, 0, 0}, 5 * h}, {{2 * h, 0.3 * h, 0}, 1.3 * h}}), 2);
+  auto phases = testing::unset_phases(1);
+  std::vector<PhaseChange> changes;
+  const PhasePieces pieces = separate(potentials, phases, changes);
+  ASSERT_EQ(changes.size(), 1u);
+  EXPECT_EQ(changes[0].kind, Kind::Absorbed);
+  EXPECT_EQ(changes[0].phase, 1);
+  EXPECT_EQ(phases.count(), 2);
+  EXPECT_EQ(pieces.piece.size(), 2u);
+}
+
+TEST(SeparatePieces, MakesAPhaseOfAnEnclosedPocketOfTheOutside) {
+  const auto shell = [](mesh::Phase p, const Vec3& x) {
+    const double d = std::min(8 * h - norm(x), norm(x) - 4 * h);
+    return p == 1 ? d : -d;
+  };
+  auto potentials = testing::sampled(testing::cube_box(28), shell, 2);
+  auto phases = testing::unset_phases(1);
+  phases.target_volume[1] = 1e-9;
+  std::vector<PhaseChange> changes;
+  const auto found = find_films(potentials, phases, smallest_volume, changes);
+  ASSERT_EQ(changes.size(), 1u);
+  EXPECT_EQ(changes[0].kind, Kind::Pocket);
+  EXPECT_DOUBLE_EQ(phases.target_volume[2], mesh::phase_volumes(found.films, 3)[2]);
+  EXPECT_DOUBLE_EQ(phases.target_volume[1], 1e-9);
+}
+
+TEST(SuppressSpecks, RemovesABitOfAPhaseBetweenLatticePoints) {
+  // A second maximum of phase 2, far below a cell, on the film of the others: no lattice point is in it.
+  const auto foam = [](mesh::Phase p, const Vec3& x) {
+    if (p < 2) return p == 0 ? x.x : -x.x;
+    return std::max(3 * h - norm(x - Vec3{5 * h, 5 * h, 5 * h}), 0.3 * h - norm(x - Vec3{0, 0.5 * h, 0.5 * h}));
+  };
+  auto potentials = testing::sampled(testing::cube_box(24), foam, 3);
+  auto phases = testing::unset_phases(2);
+  const auto films = contour(potentials, find_winners(potentials).phase);
+  const auto winners = find_winners(potentials);
+  const int n = suppress_specks(potentials, winners, films, mesh::build_topology(films), smallest_volume);
+  const auto clean = contour(potentials, find_winners(potentials).phase);
+  EXPECT_EQ(suppress_specks(potentials, winners, clean, mesh::build_topology(clean), smallest_volume), 0);
+  RecordProperty("specks", n);
+}
+
+}  // namespace
+}  // namespace spume::interface
