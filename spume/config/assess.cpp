@@ -29,33 +29,46 @@ double mean_diameter(const std::vector<BubbleShape>& bubbles) {
   return sum / static_cast<double>(bubbles.size());
 }
 
-/// The limits that hold all the time, and that of advection at the speed that tension gives the gas of a bubble,
-/// u² = 2σ / (ρ_g R).
+/// The limits that hold all the time, and that of advection at the speed that tension gives the gas of a
+/// bubble, u² = 2σ / (ρ_g R).
 std::vector<flow::StepLimit> step_limits(const Case& run_case, double h, double diameter) {
-  const double speed = std::sqrt(4 * run_case.materials.film.surface_tension /
-                                 (run_case.materials.gas.density * diameter));
+  const double speed =
+      std::sqrt(4 * run_case.materials.film.surface_tension / (run_case.materials.gas.density * diameter));
   return {flow::capillary_limit(h, run_case.materials, run_case.rearrangement.capillary_factor),
           {run_case.rearrangement.cfl * h / speed,
            fmt::format("advection, where the gas moves at {:.2g} m/s as after a rupture", speed)}};
 }
 
+/// Measured on one core of an AMD EPYC (Zen 5): a step with its films, reconstructions spread over their
+/// interval.
+void estimate_cost(Assessment& a) {
+  constexpr double seconds_per_cell = 1e-6, seconds_per_triangle = 1e-5;
+  constexpr double bytes_at_start = 1e8, bytes_per_cell = 400, bytes_per_triangle = 2000;
+  // Triangles of the film mesh have edges of about h.
+  const double n_triangles = a.foam.film_area / (std::numbers::sqrt3 / 4 * a.h * a.h);
+  a.seconds_per_step = seconds_per_cell * a.n_cells + seconds_per_triangle * n_triangles;
+  a.memory = bytes_at_start + bytes_per_cell * a.n_cells + bytes_per_triangle * n_triangles;
+}
+
 void warn_of_grid(Assessment& a) {
   constexpr double enough_cells = 8;
   if (a.smallest_diameter < enough_cells * a.h)
-    a.warnings.push_back(fmt::format("the smallest bubble is {:.1f} cells across; {} or more resolve its films",
-                                     a.smallest_diameter / a.h, enough_cells));
+    a.warnings.push_back(
+        fmt::format("the smallest bubble is {:.1f} cells across; {} or more resolve its films",
+                    a.smallest_diameter / a.h, enough_cells));
 }
 
 void warn_of_liquid(Assessment& a, const Case& run_case) {
   constexpr double dry = 0.1, slender = 0.2;
   if (a.liquid_fraction > dry)
-    a.warnings.push_back(fmt::format("the liquid fraction is {:.0f} %: the model is for dry foams, below {:.0f} %",
-                                     100 * a.liquid_fraction, 100 * dry));
-  if (a.border_radius > slender * a.smallest_diameter / 2)
     a.warnings.push_back(
-        fmt::format("Plateau borders have a radius of {:.2g} m, {:.0f} % of that of the smallest bubble: the model "
-                    "takes them for thin lines, below {:.0f} %",
-                    a.border_radius, 200 * a.border_radius / a.smallest_diameter, 100 * slender));
+        fmt::format("the liquid fraction is {:.0f} %: the model is for dry foams, below {:.0f} %",
+                    100 * a.liquid_fraction, 100 * dry));
+  if (a.border_radius > slender * a.smallest_diameter / 2)
+    a.warnings.push_back(fmt::format(
+        "Plateau borders have a radius of {:.2g} m, {:.0f} % of that of the smallest bubble: the model "
+        "takes them for thin lines, below {:.0f} %",
+        a.border_radius, 200 * a.border_radius / a.smallest_diameter, 100 * slender));
   if (run_case.rupture.threshold >= run_case.foam.lamella_half_thickness)
     a.warnings.push_back("films start below the rupture threshold: they break at once");
 }
@@ -63,9 +76,10 @@ void warn_of_liquid(Assessment& a, const Case& run_case) {
 void warn_of_pockets(Assessment& a, const Case& run_case) {
   if (run_case.foam.cluster) return;  // a cluster shares its pockets among the bubbles around them
   for (const auto& pocket : a.foam.pockets)
-    a.warnings.push_back(fmt::format("the bubbles enclose a pocket of the outside near [{:.3g}, {:.3g}, {:.3g}] m of "
-                                     "{:.2g} m³; it becomes a bubble of its own",
-                                     pocket.position.x, pocket.position.y, pocket.position.z, pocket.volume));
+    a.warnings.push_back(
+        fmt::format("the bubbles enclose a pocket of the outside near [{:.3g}, {:.3g}, {:.3g}] m of "
+                    "{:.2g} m³; it becomes a bubble of its own",
+                    pocket.position.x, pocket.position.y, pocket.position.z, pocket.volume));
 }
 
 std::string bytes_text(double bytes) {
@@ -84,10 +98,10 @@ std::string duration_text(double seconds) {
 Assessment assess(const Case& run_case, const std::vector<BubbleShape>& bubbles) {
   const grid::Box& box = run_case.box;
   const state::Materials& materials = run_case.materials;
-  const double mu = materials.gas.viscosity;             // μ_g [Pa s]
-  const double rho = materials.gas.density;              // ρ_g [kg/m³]
-  const double sigma = materials.film.surface_tension;   // σ [N/m]
-  const double lambda = run_case.foam.border_area;       // λ [m²]
+  const double mu = materials.gas.viscosity;            // μ_g [Pa s]
+  const double rho = materials.gas.density;             // ρ_g [kg/m³]
+  const double sigma = materials.film.surface_tension;  // σ [N/m]
+  const double lambda = run_case.foam.border_area;      // λ [m²]
 
   Assessment a{};
   a.h = box.spacing();
@@ -119,17 +133,19 @@ std::string report(const Assessment& a, const Case& run_case) {
     rows.push_back({"time step", fmt::format("≤ {:.3g} s  {}", limit.dt, limit.reason)});
   rows.push_back({"", "viscosity sets no limit (Crank–Nicolson); drainage chooses its own steps"});
   rows.push_back({"Laplace number", fmt::format("{:.3g} of the gas in the mean bubble", a.laplace_number)});
-  rows.push_back({"films", fmt::format("about {:.3g} m², borders about {:.3g} m, gas {:.3g} m³", a.foam.film_area,
-                                       a.foam.border_length, a.foam.gas_volume)});
+  rows.push_back({"films", fmt::format("about {:.3g} m², borders about {:.3g} m, gas {:.3g} m³",
+                                       a.foam.film_area, a.foam.border_length, a.foam.gas_volume)});
   rows.push_back({"liquid", fmt::format("about {:.2g} m³, {:.2g} % of the gas", a.liquid_volume,
                                         100 * a.liquid_fraction)});
-  rows.push_back({"border radius", fmt::format("{:.3g} m, {:.1f} % of the radius of the smallest bubble",
-                                               a.border_radius, 200 * a.border_radius / a.smallest_diameter)});
+  rows.push_back(
+      {"border radius", fmt::format("{:.3g} m, {:.1f} % of the radius of the smallest bubble",
+                                    a.border_radius, 200 * a.border_radius / a.smallest_diameter)});
   const double dt = a.step_limits.front().dt;
   rows.push_back({"memory", "about " + bytes_text(a.memory)});
-  rows.push_back({"cost", fmt::format("about {} of one core for each millisecond of rearrangement ({:.0f} steps of {})",
-                                      duration_text(1e-3 / dt * a.seconds_per_step), std::ceil(1e-3 / dt),
-                                      duration_text(a.seconds_per_step))});
+  rows.push_back(
+      {"cost", fmt::format("about {} of one core for each millisecond of rearrangement ({:.0f} steps of {})",
+                           duration_text(1e-3 / dt * a.seconds_per_step), std::ceil(1e-3 / dt),
+                           duration_text(a.seconds_per_step))});
   std::string text = aligned(rows);
   for (const auto& warning : a.warnings) text += "warning: " + warning + "\n";
   return text;

@@ -69,7 +69,8 @@ bool has_three_values(int a, int b, int c, int d) {
 }
 
 /// Faces between cells of different labels, and edges around which three labels meet.
-void count_films_and_borders(const std::vector<int>& label, const Index3& n, double h, FoamEstimate& estimate) {
+void count_films_and_borders(const std::vector<int>& label, const Index3& n, double h,
+                             FoamEstimate& estimate) {
   constexpr double mean_crossings = 1.5;
   const CellOrder order{n};
   const std::array<std::size_t, 3> stride{order(1, 0, 0), order(0, 1, 0), order(0, 0, 1)};

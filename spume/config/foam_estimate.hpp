@@ -15,15 +15,15 @@ struct FoamEstimate {
 
   /// A part of the outside that bubbles enclose.
   struct Pocket {
-    Vec3 position;           ///< of its centroid [m]
-    double volume;           ///< [m³]
+    Vec3 position;  ///< of its centroid [m]
+    double volume;  ///< [m³]
   };
   std::vector<Pocket> pockets;
 };
 
-/// Marks cells by the bubble whose power potential is largest and counts: a surface of any shape crosses on average
-/// (3/2) A/h² faces between cells and a line (3/2) L/h edges, since the mean of |n_x| + |n_y| + |n_z| over all directions
-/// is 3/2. Grids of more than four million cells are coarsened to that.
+/// Marks cells by the bubble whose power potential is largest and counts: a surface of any shape crosses on
+/// average (3/2) A/h² faces between cells and a line (3/2) L/h edges, since the mean of |n_x| + |n_y| + |n_z|
+/// over all directions is 3/2. Grids of more than four million cells are coarsened to that.
 FoamEstimate estimate_foam(const std::vector<simulation::BubbleShape>& bubbles, const grid::Box& box);
 
 }  // namespace spume::config

@@ -25,10 +25,13 @@ void check_input(const state::FilmNetwork& network, const state::Materials& mate
   expects(network.half_thickness.size() == network.topology.film_dof.size() &&
               network.curvature_squared.size() == network.topology.film_dof.size(),
           "one half-thickness and one curvature per film dof");
-  expects(static_cast<int>(network.border_area.size()) == network.mesh.n_vertices(), "one border area per vertex");
+  expects(static_cast<int>(network.border_area.size()) == network.mesh.n_vertices(),
+          "one border area per vertex");
   const auto [rho, mu] = materials.liquid;
-  if (!(mu > 0) || !(materials.film.surface_tension >= 0) || !(rho >= 0) || !std::isfinite(norm(materials.gravity)))
-    throw InputError("drainage needs a positive viscosity, no negative tension or density, and a finite gravity");
+  if (!(mu > 0) || !(materials.film.surface_tension >= 0) || !(rho >= 0) ||
+      !std::isfinite(norm(materials.gravity)))
+    throw InputError(
+        "drainage needs a positive viscosity, no negative tension or density, and a finite gravity");
   if (!(parameters.tolerance > 0) || !(parameters.max_step > 0))
     throw InputError("drainage needs a positive tolerance and a positive max_step");
 }
@@ -44,15 +47,15 @@ void check_state(const state::FilmNetwork& network, const DrainageEquations& equ
                            describe_border_vertex(network, equations.borders().vertex[u], y.border[u]));
 }
 
-/// 0.02 of the shortest time in which a border empties the rim of a film, 3μ r²/(ση), λ = (√3 − π/2) r²; without
-/// borders, the time in which some η changes by a fiftieth.
+/// 0.02 of the shortest time in which a border empties the rim of a film, 3μ r²/(ση), λ = (√3 − π/2) r²;
+/// without borders, the time in which some η changes by a fiftieth.
 double first_step(const DrainageEquations& equations, const state::Materials& materials, const Unknowns& y,
                   const Unknowns& rate) {
   const double sigma = materials.film.surface_tension, mu = materials.liquid.viscosity;
   double shortest = std::numeric_limits<double>::infinity();
   for (const SuctionSite& site : equations.sites())
-    shortest = std::min(shortest,
-                        3 * mu * y.border[site.border_unknown] / (border_shape * sigma * y.film[site.film_dof]));
+    shortest = std::min(
+        shortest, 3 * mu * y.border[site.border_unknown] / (border_shape * sigma * y.film[site.film_dof]));
   if (equations.sites().empty())
     for (std::size_t d = 0; d < y.film.size(); ++d)
       shortest = std::min(shortest, equations.film_area()[d] * y.film[d] / std::abs(rate.film[d]));
@@ -149,16 +152,18 @@ class Stage {
     }
   }
 
-  /// Repeats the accepted step with the length at which the thinnest η meets the threshold, so that the state at
-  /// rupture is one of the scheme and not an interpolation.
+  /// Repeats the accepted step with the length at which the thinnest η falls just below the threshold, so
+  /// that the state at rupture is one of the scheme and not an interpolation.
   void cut_at_rupture(Moment before) {
     const double close = 0.1 * std::min(parameters_.tolerance, 0.1);
+    const auto aimed = [&](Moment moment) {
+      return Moment{moment.since_step, moment.log_excess + 0.5 * close};
+    };
     Moment after{step_, log_excess(thinnest_)};
     Unknowns below = next_;
     for (int tries = 0; tries < crossing_tries && after.log_excess < -close; ++tries) {
       if (!std::isfinite(before.log_excess)) break;
-      const double length = crossing_time(elapsed_, before, after);
-      if (!(length > before.since_step && length < after.since_step)) break;
+      const double length = crossing_time(elapsed_, aimed(before), aimed(after));
       const Trial& trial = stepper_.attempt(method_, length);
       if (!trial.positive) break;
       use(trial.y);
@@ -176,10 +181,12 @@ class Stage {
 
   [[noreturn]] void throw_stalled(const Trial& trial) const {
     std::ostringstream message;
-    message << "drainage stalled " << elapsed_ << " s after its start: a step of " << step_ << " s was rejected ("
-            << (trial.positive ? "error too large" : "not positive or not finite") << ")";
+    message << "drainage stalled " << elapsed_ << " s after its start: a step of " << step_
+            << " s was rejected (" << (trial.positive ? "error too large" : "not positive or not finite")
+            << ")";
     if (trial.worst.film_dof >= 0)
-      message << ", worst: " << describe_film_dof(network_, trial.worst.film_dof, y_.film[trial.worst.film_dof]);
+      message << ", worst: "
+              << describe_film_dof(network_, trial.worst.film_dof, y_.film[trial.worst.film_dof]);
     if (trial.worst.border_unknown >= 0)
       message << ", worst: "
               << describe_border_vertex(network_, equations_.borders().vertex[trial.worst.border_unknown],
@@ -196,7 +203,8 @@ class Stage {
   Unknowns y_, next_;  ///< before and after the step
   state::ThinPoint thinnest_;
   Method method_ = Method::Rosenbrock;
-  double elapsed_ = 0, dt_ = 0, step_ = 0, shortest_step_ = 0, initial_liquid_ = 0;  // dt_: what the error allows
+  double elapsed_ = 0, dt_ = 0, step_ = 0, shortest_step_ = 0,
+         initial_liquid_ = 0;  // dt_: what the error allows
   int n_steps_ = 0, n_rejected_ = 0;
   std::string limited_by_, reported_limit_;
 };

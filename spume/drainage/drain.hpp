@@ -11,27 +11,27 @@
 namespace spume::drainage {
 
 struct DrainageParameters {
-  double max_time = 100;      ///< of one drainage stage [s]
-  double tolerance = 0.02;    ///< relative error of η and λ a step
-  double max_step = 10;       ///< [s]
+  double max_time = 100;    ///< of one drainage stage [s]
+  double tolerance = 0.02;  ///< relative error of η and λ a step
+  double max_step = 10;     ///< [s]
 };
 
 enum class Ending { Ruptured, Drained, Stopped };
 
 struct DrainageOutcome {
   Ending ending;
-  double elapsed;                 ///< [s] since the start of the stage
-  state::ThinPoint thinnest;      ///< where it ruptured or would rupture next
+  double elapsed;             ///< [s] since the start of the stage
+  state::ThinPoint thinnest;  ///< where it ruptured or would rupture next
   int n_steps, n_rejected;
-  double ledger_error;            ///< change of 2Σ∫η + Σ∫λ, relative
+  double ledger_error;  ///< change of 2Σ∫η + Σ∫λ, relative
 };
 
 /// What happens after each accepted step; return false to stop (state is then the one just accepted).
 struct DrainageProgress {
-  double elapsed, step;           ///< [s]
+  double elapsed, step;  ///< [s]
   int n_steps, n_rejected;
   state::ThinPoint thinnest;
-  std::string limited_by;         ///< "error", "max_step", "first step", "rupture", …
+  std::string limited_by;  ///< "error", "max_step", "first step", "rupture", …
 };
 using OnStep = std::function<bool(const DrainageProgress&, const state::FilmNetwork&)>;
 /// The rupture criterion: the thinnest point that counts (rupture/criterion.hpp makes one).

@@ -36,7 +36,8 @@ void DrainageEquations::write(const Unknowns& y, state::FilmNetwork& network) co
 double DrainageEquations::liquid(const Unknowns& y) const {
   long double sum = 0;  // so that what the ledger shows is the scheme and not the summation
   for (std::size_t d = 0; d < y.film.size(); ++d) sum += 2.0L * film_area_[d] * y.film[d];
-  for (std::size_t u = 0; u < y.border.size(); ++u) sum += static_cast<long double>(borders_.length[u]) * y.border[u];
+  for (std::size_t u = 0; u < y.border.size(); ++u)
+    sum += static_cast<long double>(borders_.length[u]) * y.border[u];
   return static_cast<double>(sum);
 }
 
@@ -53,7 +54,8 @@ void DrainageEquations::rates(const Unknowns& y, Unknowns& rate) {
     std::fill(lamella.balance.begin(), lamella.balance.end(), 0.0);
     add_lamella_flow(lamella.domain, lamella.eta, lamella.potential, lamella.balance);
     add_boundary_outflow(lamella.domain, suction_.outflow, lamella.balance);
-    for (int i = 0; i < lamella.domain.size(); ++i) rate.film[lamella.domain.film_dof[i]] = lamella.balance[i];
+    for (int i = 0; i < lamella.domain.size(); ++i)
+      rate.film[lamella.domain.film_dof[i]] = lamella.balance[i];
   }
   rate.border.assign(y.border.size(), 0.0);
   add_border_flow(borders_, y.border, materials_, rate.border);
@@ -64,7 +66,8 @@ void DrainageEquations::linearise(const Unknowns& y) {
   evaluate_suction(sites_, y.film, y.border, materials_, linearised_suction_);
   for (LamellaSystem& lamella : lamellae_) {
     gather(y, lamella);
-    lamella.jacobian.evaluate(lamella.domain, lamella.eta, lamella.potential, materials_, linearised_suction_.slope);
+    lamella.jacobian.evaluate(lamella.domain, lamella.eta, lamella.potential, materials_,
+                              linearised_suction_.slope);
   }
   linearise_borders(y);
 }
@@ -82,8 +85,9 @@ bool DrainageEquations::factorise(double s) {
   return factorise_borders(s);
 }
 
-/// Solves for one lamella. What round-off in the factors adds to or takes from its liquid, which can be felt where tiny
-/// triangles make J huge, is given back evenly: Σ m k + (s/2) Σ slope k = Σ b holds as exactly as it can be summed.
+/// Solves for one lamella. What round-off in the factors adds to or takes from its liquid, which can be felt
+/// where tiny triangles make J huge, is given back evenly: Σ m k + (s/2) Σ slope k = Σ b holds as exactly as
+/// it can be summed.
 void DrainageEquations::solve_lamella(LamellaSystem& lamella, Unknowns& b) const {
   const auto& domain = lamella.domain;
   const auto& mass = domain.surface.mass;
@@ -111,7 +115,8 @@ void DrainageEquations::solve(Unknowns& b) {
   const double gained = std::accumulate(b.border.begin(), b.border.end(), 0.0);
   border_system_.lu.front().solve(b.border);
   const double found = std::inner_product(b.border.begin(), b.border.end(), borders_.length.begin(), 0.0);
-  const double missing = (gained - found) / std::accumulate(borders_.length.begin(), borders_.length.end(), 0.0);
+  const double missing =
+      (gained - found) / std::accumulate(borders_.length.begin(), borders_.length.end(), 0.0);
   for (double& k : b.border) k += missing;
 }
 
@@ -135,7 +140,8 @@ void DrainageEquations::build_border_pattern() {
   const auto position = [&](int row, int column) {
     const auto first = system.row.begin() + system.column_offset[column];
     return static_cast<int>(
-        std::lower_bound(first, system.row.begin() + system.column_offset[column + 1], row) - system.row.begin());
+        std::lower_bound(first, system.row.begin() + system.column_offset[column + 1], row) -
+        system.row.begin());
   };
   for (int u = 0; u < n; ++u) system.diagonal.push_back(position(u, u));
   for (const BorderLink& link : borders_.link) {

@@ -18,9 +18,9 @@ struct Unknowns {
   std::vector<double> film, border;
 };
 
-/// The coupled drainage equations of a network, M y' = F(y), and their linearisation. M is the diagonal of lumped areas
-/// and lengths. The matrix J drops ∂Q/∂λ in films and borders alike, so that (2, 1)ᵀ J = 0 still holds: the ledger is
-/// kept to round-off, and each lamella has a matrix of its own, with λ lagged in it.
+/// The coupled drainage equations of a network, M y' = F(y), and their linearisation. M is the diagonal of
+/// lumped areas and lengths. The matrix J drops ∂Q/∂λ in films and borders alike, so that (2, 1)ᵀ J = 0 still
+/// holds: the ledger is kept to round-off, and each lamella has a matrix of its own, with λ lagged in it.
 class DrainageEquations {
  public:
   /// Throws NumericalError, with the place, where a triangle, film dof or border edge has no size.
@@ -32,8 +32,9 @@ class DrainageEquations {
 
   const BorderNetwork& borders() const { return borders_; }
   std::span<const SuctionSite> sites() const { return sites_; }
-  std::span<const double> film_area() const { return film_area_; }           ///< m of each film dof [m²]
-  std::span<const double> border_length() const { return borders_.length; }  ///< m^b of each border unknown [m]
+  /// m of each film dof [m²], m^b of each border unknown [m].
+  std::span<const double> film_area() const { return film_area_; }
+  std::span<const double> border_length() const { return borders_.length; }
   /// The ledger 2Σ∫η dA + Σ∫λ dℓ [m³].
   double liquid(const Unknowns& y) const;
 
@@ -44,7 +45,8 @@ class DrainageEquations {
   void linearise(const Unknowns& y);
   /// Factorises M − s J, s [s], of the last linearise(). False if that failed.
   bool factorise(double s);
-  /// Replaces b by the solution of (M − s J) k = b: all lamellae, then the borders with what those films lose.
+  /// Replaces b by the solution of (M − s J) k = b: all lamellae, then the borders with what those films
+  /// lose.
   void solve(Unknowns& b);
 
  private:
@@ -56,10 +58,10 @@ class DrainageEquations {
   };
   struct BorderSystem {
     std::vector<int> column_offset, row;
-    std::vector<int> diagonal;                      ///< position of each J_ii
-    std::vector<std::array<int, 2>> off_diagonal;   ///< of each link: position of J_01 and J_10
+    std::vector<int> diagonal;                     ///< position of each J_ii
+    std::vector<std::array<int, 2>> off_diagonal;  ///< of each link: position of J_01 and J_10
     std::vector<double> jacobian;
-    std::vector<fem::SparseLu> lu;                  ///< none if there are no borders
+    std::vector<fem::SparseLu> lu;  ///< none if there are no borders
   };
 
   void gather(const Unknowns& y, LamellaSystem& lamella) const;
@@ -74,10 +76,10 @@ class DrainageEquations {
   std::vector<double> film_area_;
   std::vector<LamellaSystem> lamellae_;
   BorderSystem border_system_;
-  Suction suction_;            ///< of the last rates()
+  Suction suction_;  ///< of the last rates()
   Suction linearised_suction_;
-  double s_ = 0;               ///< of the last factorise()
-  std::vector<double> matrix_; ///< values of one matrix before its factorisation
+  double s_ = 0;                ///< of the last factorise()
+  std::vector<double> matrix_;  ///< values of one matrix before its factorisation
 };
 
 }  // namespace spume::drainage

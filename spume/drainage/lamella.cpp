@@ -35,7 +35,8 @@ std::vector<int> second_ring(const fem::SurfaceLaplacian& surface, int node) {
   for (int e = surface.offset[node]; e < surface.offset[node + 1]; ++e) {
     const int next = surface.neighbour[e];
     ring.push_back(next);
-    for (int f = surface.offset[next]; f < surface.offset[next + 1]; ++f) ring.push_back(surface.neighbour[f]);
+    for (int f = surface.offset[next]; f < surface.offset[next + 1]; ++f)
+      ring.push_back(surface.neighbour[f]);
   }
   std::sort(ring.begin(), ring.end());
   ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
@@ -100,7 +101,8 @@ void add_lamella_flow(const LamellaDomain& lamella, std::span<const double> eta,
     }
 }
 
-void add_boundary_outflow(const LamellaDomain& lamella, std::span<const double> outflow, std::span<double> rate) {
+void add_boundary_outflow(const LamellaDomain& lamella, std::span<const double> outflow,
+                          std::span<double> rate) {
   for (const RimNode& node : lamella.rim) rate[node.unknown] -= 0.5 * outflow[node.site];
 }
 
@@ -133,7 +135,8 @@ void LamellaJacobian::evaluate_edges(const LamellaDomain& lamella, std::span<con
 }
 
 /// Adds to the column in work_ what a change of the potential of one node does to it and its neighbours.
-void LamellaJacobian::add_column_of_potential(const LamellaDomain& lamella, int node, double slope_of_potential) {
+void LamellaJacobian::add_column_of_potential(const LamellaDomain& lamella, int node,
+                                              double slope_of_potential) {
   const auto& surface = lamella.surface;
   for (int e = surface.offset[node]; e < surface.offset[node + 1]; ++e) {
     const double flow = conductance_[e] * slope_of_potential;

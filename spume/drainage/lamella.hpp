@@ -31,16 +31,17 @@ struct LamellaDomain {
 std::vector<LamellaDomain> build_lamella_domains(const state::FilmNetwork& network, const Vec3& gravity,
                                                  std::span<const SuctionSite> sites);
 
-/// Mobility of the edge between half-thicknesses a and b: 2a²b²/(a + b) [m³], which is a³ for a = b and vanishes with
-/// either. A mean of a³ and b³ would let a node lose liquid to a still thinner neighbour until it is empty.
+/// Mobility of the edge between half-thicknesses a and b: 2a²b²/(a + b) [m³], which is a³ for a = b and
+/// vanishes with either. A mean of a³ and b³ would let a node lose liquid to a still thinner neighbour until
+/// it is empty.
 struct EdgeMobility {
   double value;
   double slope_a, slope_b;  ///< derivatives [m²]
 };
 EdgeMobility edge_mobility(double a, double b);
 
-/// The potential that drives liquid in a lamella, w [1/s], at its nodes. Gravity enters as a potential of position, so
-/// that a hydrostatic film, w constant, is exactly at rest.
+/// The potential that drives liquid in a lamella, w [1/s], at its nodes. Gravity enters as a potential of
+/// position, so that a hydrostatic film, w constant, is exactly at rest.
 ///   w = (σ/3μ)(kη − (Kη)/m) + (ρ/3μ) g·x
 void lamella_potential(const LamellaDomain& lamella, std::span<const double> eta,
                        const state::Materials& materials, std::span<double> potential);
@@ -48,8 +49,8 @@ void lamella_potential(const LamellaDomain& lamella, std::span<const double> eta
 /// Adds to the balance of each node, m η', what flows in along the edges of the lamella [m³/s].
 /// Paper: Sec. 2.3.1, Eq. (3).
 ///   m_i η_i' = Σ_j K_ij M(η_i, η_j) (w_j − w_i),   the weak form of η_t + ∇_s·(η³ ∇_s w) = 0
-/// Takes: η [m] > 0 and its potential, one per local unknown. Conserves Σ m η to round-off, since each edge gives to
-/// one end what it takes from the other.
+/// Takes: η [m] > 0 and its potential, one per local unknown. Conserves Σ m η to round-off, since each edge
+/// gives to one end what it takes from the other.
 void add_lamella_flow(const LamellaDomain& lamella, std::span<const double> eta,
                       std::span<const double> potential, std::span<double> rate);
 
@@ -57,10 +58,11 @@ void add_lamella_flow(const LamellaDomain& lamella, std::span<const double> eta,
 /// Paper: Sec. 2.3.1, Eq. (4).
 ///   Q·ν = ½ Q(η, λ) on the boundary, lumped; ∂η/∂ν = 0 is the natural condition of K
 /// Takes: `outflow` of all suction sites [m³/s].
-void add_boundary_outflow(const LamellaDomain& lamella, std::span<const double> outflow, std::span<double> rate);
+void add_boundary_outflow(const LamellaDomain& lamella, std::span<const double> outflow,
+                          std::span<double> rate);
 
-/// Derivative of the rates of one lamella by its η, λ held: columns of the sparse matrix J [m²/s]. Two nodes are
-/// coupled if they have a common neighbour.
+/// Derivative of the rates of one lamella by its η, λ held: columns of the sparse matrix J [m²/s]. Two nodes
+/// are coupled if they have a common neighbour.
 class LamellaJacobian {
  public:
   explicit LamellaJacobian(const LamellaDomain& lamella);
@@ -75,7 +77,8 @@ class LamellaJacobian {
   std::span<const double> value() const { return value_; }
 
  private:
-  void evaluate_edges(const LamellaDomain& lamella, std::span<const double> eta, std::span<const double> potential);
+  void evaluate_edges(const LamellaDomain& lamella, std::span<const double> eta,
+                      std::span<const double> potential);
   void add_column_of_potential(const LamellaDomain& lamella, int node, double slope_of_potential);
 
   std::vector<int> column_offset_, row_, diagonal_;

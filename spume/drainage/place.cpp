@@ -44,6 +44,8 @@ std::string describe_border_vertex(const state::FilmNetwork& network, int vertex
   return text.str();
 }
 
-void throw_at(const std::string& what, const Vec3& x) { throw NumericalError(what + " at " + place_text(x)); }
+void throw_at(const std::string& what, const Vec3& x) {
+  throw NumericalError(what + " at " + place_text(x));
+}
 
 }  // namespace spume::drainage

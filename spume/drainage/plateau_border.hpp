@@ -26,24 +26,24 @@ struct BorderNetwork {
   int size() const { return static_cast<int>(vertex.size()); }
 };
 
-/// The unknowns of the borders: one λ per border vertex, and one per junction, shared by the borders that end there.
+/// The unknowns of the borders: one λ per border vertex, and one per junction, shared by all borders there.
 /// Paper: Sec. 2.3.2, Eq. (6).
-///   λ₁ = λ₂ = λ₃ = λ₄ holds because they are one unknown; Σ fluxes = 0 is its balance, with the storage of the four
-///   half edges around it, which vanishes with the edge length.
+///   λ₁ = λ₂ = λ₃ = λ₄ holds because they are one unknown. Σ fluxes = 0 is its balance, with the storage of
+///   the four half edges around it, which vanishes with the edge length.
 /// Throws NumericalError, with the place, where an edge has no length.
 BorderNetwork build_border_network(const state::FilmNetwork& network, const Vec3& gravity);
 
 /// Flux along a border edge from its unknown 0 to its unknown 1, and its derivatives by λ₀ and λ₁.
 struct BorderFlux {
-  double value;                ///< [m³/s]
+  double value;                 ///< [m³/s]
   std::array<double, 2> slope;  ///< [m/s]
 };
 
-/// Flow along one border edge between cross-sections a = λ₀ and b = λ₁ [m²], driven by the pressure −2 C₁ λ^{−1/2} and
-/// by gravity. It is exactly zero where λ^{−1/2} is hydrostatic.
+/// Flow along one border edge between cross-sections a = λ₀ and b = λ₁ [m²], driven by the pressure
+/// −2 C₁ λ^{−1/2} and by gravity. It is exactly zero where λ^{−1/2} is hydrostatic.
 /// Paper: Sec. 2.3.2, Eq. (5).
-///   F = (C_Δ/μ) (a² + ab + b²)/3 · [2 C₁ (b^{−1/2} − a^{−1/2}) + ρ g·(x₁ − x₀)]/h,   C₁ = ½ σ (√3 − π/2)^{1/2}
-/// which approximates (C_Δ/μ)(−C₁ λ^{1/2} ∂λ/∂ℓ + λ² ρ g_τ).
+///   F = (C_Δ/μ) (a² + ab + b²)/3 · [2 C₁ (b^{−1/2} − a^{−1/2}) + ρ g·(x₁ − x₀)]/h
+/// with C₁ = ½ σ (√3 − π/2)^{1/2}; it approximates (C_Δ/μ)(−C₁ λ^{1/2} ∂λ/∂ℓ + λ² ρ g_τ).
 BorderFlux border_flux(double a, double b, const BorderLink& link, const state::Materials& materials);
 
 /// Adds to each unknown what flows in along its edges [m³/s].

@@ -12,7 +12,8 @@ namespace spume::drainage {
 namespace {
 
 /// right −= factor M k
-void subtract_mass(std::span<const double> mass, double factor, std::span<const double> k, std::span<double> right) {
+void subtract_mass(std::span<const double> mass, double factor, std::span<const double> k,
+                   std::span<double> right) {
   for (std::size_t i = 0; i < k.size(); ++i) right[i] -= factor * mass[i] * k[i];
 }
 
@@ -76,7 +77,8 @@ void Stepper::combine(double dt, double c1, double c2, Unknowns& to) const {
   const auto combine_part = [&](const std::vector<double>& y, const std::vector<double>& k1,
                                 const std::vector<double>& k2, std::vector<double>& sum) {
     sum.resize(y.size());
-    for (std::size_t i = 0; i < y.size(); ++i) sum[i] = y[i] + dt * (c1 * k1[i] + (c2 != 0 ? c2 * k2[i] : 0.0));
+    for (std::size_t i = 0; i < y.size(); ++i)
+      sum[i] = y[i] + dt * (c1 * k1[i] + (c2 != 0 ? c2 * k2[i] : 0.0));
   };
   combine_part(start_.film, k1_.film, k2_.film, to.film);
   combine_part(start_.border, k1_.border, k2_.border, to.border);

@@ -14,11 +14,11 @@ struct WorstUnknown {
   int film_dof = -1, border_unknown = -1;
 };
 
-/// A step that was tried, not yet accepted.
+/// A step that was tried, not yet accepted. Where it is not positive, only `worst` means something.
 struct Trial {
-  Unknowns y;            ///< at the end of the step
-  bool positive = false; ///< every η and λ of its stages is finite and positive; if not, only `worst` means something
-  double error = 0;      ///< largest estimated error, relative to the lesser of old and new value plus a floor
+  Unknowns y;             ///< at the end of the step
+  bool positive = false;  ///< every η and λ of its stages is finite and positive
+  double error = 0;       ///< largest estimate, relative to the lesser of old and new value plus a floor
   WorstUnknown worst;
 };
 
@@ -26,8 +26,8 @@ struct Trial {
 ///   ROS2, γ = 1 − 1/√2:  (M − γ Δt J) k₁ = F(y),  (M − γ Δt J) k₂ = F(y + Δt k₁) − 2 M k₁,
 ///                        y⁺ = y + Δt (3k₁ + k₂)/2,  error Δt |k₁ + k₂|/2
 ///   Euler:               (M − Δt J) k = F(y),  y⁺ = y + Δt k,  error from (M − Δt J) e = (Δt/2)(F(y⁺) − M k)
-/// ROS2 is second order for any J (Verwer, Spee, Blom, Hundsdorfer, SIAM J. Sci. Comput. 20, 1999), hence also for the
-/// J without ∂Q/∂λ. Liquid is kept to round-off in each step.
+/// ROS2 is second order for any J (Verwer, Spee, Blom, Hundsdorfer, SIAM J. Sci. Comput. 20, 1999), hence
+/// also for the J without ∂Q/∂λ. Liquid is kept to round-off in each step.
 class Stepper {
  public:
   explicit Stepper(DrainageEquations& equations) : equations_(equations) {}

@@ -21,7 +21,8 @@ std::vector<SuctionSite> suction_sites(const state::FilmNetwork& network, const 
   const auto& topology = network.topology;
   std::vector<double> length(topology.film_dof.size(), 0.0);
   for (const auto& edge : topology.border_edge) {
-    const double h = fem::segment_length(network.mesh.position[edge.vertex[0]], network.mesh.position[edge.vertex[1]]);
+    const double h =
+        fem::segment_length(network.mesh.position[edge.vertex[0]], network.mesh.position[edge.vertex[1]]);
     for (int t : edge.triangle)
       for (int corner = 0; corner < 3; ++corner) {
         const int v = network.mesh.triangle[t].vertex[corner];
@@ -32,7 +33,8 @@ std::vector<SuctionSite> suction_sites(const state::FilmNetwork& network, const 
   std::vector<SuctionSite> sites;
   for (std::size_t d = 0; d < length.size(); ++d)
     if (length[d] > 0)
-      sites.push_back({static_cast<int>(d), borders.unknown_of_vertex[topology.film_dof[d].vertex], length[d]});
+      sites.push_back(
+          {static_cast<int>(d), borders.unknown_of_vertex[topology.film_dof[d].vertex], length[d]});
   return sites;
 }
 

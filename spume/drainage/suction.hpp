@@ -9,8 +9,8 @@
 
 namespace spume::drainage {
 
-/// Liquid that a Plateau border of cross-section λ sucks out of one film of half-thickness η, per length of border and
-/// from both faces of the film together [m²/s].
+/// Liquid that a Plateau border of cross-section λ sucks out of one film of half-thickness η [m²/s]: per
+/// length of border, from both faces of the film together.
 /// Paper: Sec. 3.3.4, Eq. (16).
 ///   Q = ½ (√3 − π/2)^{3/4} σ η^{5/2} / (μ λ^{3/4})
 double suction(double eta, double lambda, const state::Materials& materials);
@@ -28,8 +28,8 @@ struct SuctionSite {
 /// All sites, in the order of the film dofs.
 std::vector<SuctionSite> suction_sites(const state::FilmNetwork& network, const BorderNetwork& borders);
 
-/// Suction at the sites. Both the films and the borders read this one array, which is why no liquid is lost between
-/// them.
+/// Suction at the sites. Both the films and the borders read this one array, which is why no liquid is lost
+/// between them.
 struct Suction {
   std::vector<double> outflow;  ///< length × Q of each site [m³/s]
   std::vector<double> slope;    ///< length × ∂Q/∂η of each site [m²/s]

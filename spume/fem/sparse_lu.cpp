@@ -10,8 +10,8 @@
 
 namespace spume::fem {
 
-/// KLU needs no BLAS, and on the matrices of films (two rings of neighbours, up to some 10⁴ rows) it is faster than the
-/// supernodal codes.
+/// KLU needs no BLAS, and on the matrices of films (two rings of neighbours, up to some 10⁴ rows) it is
+/// faster than the supernodal codes.
 struct SparseLu::Factors {
   std::vector<int> column_offset, row;
   std::vector<double> value;
@@ -27,8 +27,9 @@ struct SparseLu::Factors {
     klu_free_symbolic(&symbolic, &common);
   }
 
-  /// Factorises with the order of pivots of the last time, a third of the work. False if there was no last time or the
-  /// numbers grew more than KLU's own threshold for pivots (0.001) lets them: then the pivots must be chosen anew.
+  /// Factorises with the order of pivots of the last time, a third of the work. False if there was no last
+  /// time or the numbers grew more than KLU's own threshold for pivots (0.001) lets them: then the pivots
+  /// must be chosen anew.
   bool refactorise() {
     if (numeric == nullptr) return false;
     return klu_refactor(column_offset.data(), row.data(), value.data(), symbolic, numeric, &common) &&
@@ -45,7 +46,8 @@ SparseLu::SparseLu(std::span<const int> column_offset, std::span<const int> row)
   f.column_offset.assign(column_offset.begin(), column_offset.end());
   f.row.assign(row.begin(), row.end());
   f.value.resize(row.size());
-  f.symbolic = klu_analyze(static_cast<int>(column_offset.size()) - 1, f.column_offset.data(), f.row.data(), &f.common);
+  f.symbolic = klu_analyze(static_cast<int>(column_offset.size()) - 1, f.column_offset.data(), f.row.data(),
+                           &f.common);
   expects(f.symbolic != nullptr, "a sparse pattern with every diagonal entry");
 }
 

@@ -5,11 +5,12 @@
 
 namespace spume::fem {
 
-/// A direct solver for one sparse matrix whose pattern stays while its values change: the pattern is analysed once,
-/// the values are factorised often.
+/// A direct solver for one sparse matrix whose pattern stays while its values change: the pattern is analysed
+/// once, the values are factorised often.
 class SparseLu {
  public:
-  /// A square matrix by columns: the rows of column j are row[column_offset[j] … column_offset[j+1]), increasing.
+  /// A square matrix by columns: the rows of column j are row[column_offset[j] … column_offset[j+1]),
+  /// increasing.
   SparseLu(std::span<const int> column_offset, std::span<const int> row);
   ~SparseLu();
   SparseLu(SparseLu&&) noexcept;

@@ -2,7 +2,9 @@
 
 namespace spume::fem {
 
-double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5 * norm(cross(b - a, c - a)); }
+double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return 0.5 * norm(cross(b - a, c - a));
+}
 
 TriangleMatrix triangle_stiffness(const Vec3& a, const Vec3& b, const Vec3& c) {
   const std::array<Vec3, 3> x = {a, b, c};
@@ -23,9 +25,13 @@ TriangleMatrix triangle_mass(double area) {
   return {{{on, off, off}, {off, on, off}, {off, off, on}}};
 }
 
-double lumped_triangle_mass(double area) { return area / 3; }
+double lumped_triangle_mass(double area) {
+  return area / 3;
+}
 
-double segment_length(const Vec3& a, const Vec3& b) { return norm(b - a); }
+double segment_length(const Vec3& a, const Vec3& b) {
+  return norm(b - a);
+}
 
 SegmentMatrix segment_stiffness(double length) {
   const double k = 1 / length;
@@ -36,6 +42,8 @@ SegmentMatrix segment_mass(double length) {
   return {{{length / 3, length / 6}, {length / 6, length / 3}}};
 }
 
-double lumped_segment_mass(double length) { return length / 2; }
+double lumped_segment_mass(double length) {
+  return length / 2;
+}
 
 }  // namespace spume::fem

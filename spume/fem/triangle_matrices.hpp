@@ -13,8 +13,9 @@ using SegmentMatrix = std::array<std::array<double, 2>, 2>;
 /// Area of the triangle abc [m²].
 double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Stiffness ∫ ∇φ_i·∇φ_j of the linear elements on the triangle abc, without unit: off the diagonal minus half the
-/// cotangent of the angle opposite to the edge ij. Rows sum to zero. Not finite where the triangle has no area.
+/// Stiffness ∫ ∇φ_i·∇φ_j of the linear elements on the triangle abc, without unit: off the diagonal minus
+/// half the cotangent of the angle opposite to the edge ij. Rows sum to zero. Not finite where the triangle
+/// has no area.
 TriangleMatrix triangle_stiffness(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Consistent mass ∫ φ_i φ_j of a triangle with this area [m²]: area/12 off the diagonal, area/6 on it.

@@ -8,8 +8,8 @@
 
 namespace spume::flow {
 
-/// Layers of ghosts around the owned cells: the predictor traces the cells next to the owned ones, whose fourth-order
-/// slopes reach two cells further.
+/// Layers of ghosts around the owned cells: the predictor traces the cells next to the owned ones, whose
+/// fourth-order slopes reach two cells further.
 inline constexpr int margin = 3;
 
 using GhostedField = grid::Ghosted<margin>;
@@ -33,14 +33,15 @@ struct CellRange {
   }
 };
 
-/// How the owned cells of a rank and their ghosts lie in memory: as in Ghosted<margin>, so that one offset addresses
-/// the same cell of every array.
+/// How the owned cells of a rank and their ghosts lie in memory: as in Ghosted<margin>, so that one offset
+/// addresses the same cell of every array.
 class BlockLayout {
  public:
   explicit BlockLayout(const grid::Grid& grid);
 
   CellRange owned() const { return {{0, 0, 0}, cells_}; }
-  /// Faces across `axis` are numbered by the cell above them: the owned cells have faces 0 … n along the axis.
+  /// Faces across `axis` are numbered by the cell above them: the owned cells have faces 0 … n along the
+  /// axis.
   CellRange owned_faces(int axis) const { return owned().grown(axis, 0, 1); }
   std::ptrdiff_t stride(int axis) const { return stride_[axis]; }
   std::ptrdiff_t offset(int i, int j, int k) const { return k * stride_[2] + j * stride_[1] + i; }
@@ -71,7 +72,9 @@ inline BlockVector block_vector(const BlockLayout& layout) {
 }
 
 /// Pointer to the value of the first owned cell.
-inline const double* first(const GhostedField& f, const grid::Grid& grid) { return f.at(0, 0, grid.z_begin()); }
+inline const double* first(const GhostedField& f, const grid::Grid& grid) {
+  return f.at(0, 0, grid.z_begin());
+}
 
 /// Calls body(offset, count) for every row along x of `range`: its cells are offset … offset + count − 1.
 template <class Body>
@@ -81,7 +84,8 @@ void for_each_row(const BlockLayout& layout, const CellRange& range, Body&& body
       body(layout.offset(range.lower.i, j, k), range.upper.i - range.lower.i);
 }
 
-/// The same with the place of the row in the values of a Field: body(offset, place, count). Rows of owned cells, whole.
+/// The same with the place of the row in the values of a Field: body(offset, place, count). Rows of owned
+/// cells, whole.
 template <class Body>
 void for_each_owned_row(const BlockLayout& layout, const CellRange& range, Body&& body) {
   const Index3 n = layout.owned().upper;

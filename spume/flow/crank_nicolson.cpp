@@ -3,7 +3,8 @@
 namespace spume::flow {
 
 void explicit_acceleration(const grid::Grid& grid, const state::Gas& gas, const GhostedVector& u,
-                           const GhostedField& pressure, const GhostedVector& body_force, BlockVector& acceleration) {
+                           const GhostedField& pressure, const GhostedVector& body_force,
+                           BlockVector& acceleration) {
   const BlockLayout layout(grid);
   const double h = grid.h();
   const double nu = gas.viscosity / gas.density;  // ν [m²/s]
@@ -26,7 +27,8 @@ void explicit_acceleration(const grid::Grid& grid, const state::Gas& gas, const 
   }
 }
 
-void diffuse_implicitly(grid::EllipticSolver& elliptic, const state::Gas& gas, double dt, grid::VectorField& rate) {
+void diffuse_implicitly(grid::EllipticSolver& elliptic, const state::Gas& gas, double dt,
+                        grid::VectorField& rate) {
   const double nu = gas.viscosity / gas.density;  // ν [m²/s]
   if (nu == 0) return;
   for (grid::Field& component : rate.components) elliptic.solve(1, 0.5 * nu * dt, component, component);

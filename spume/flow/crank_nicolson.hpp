@@ -10,11 +10,14 @@ namespace spume::flow {
 ///   a = (f − ∇p^{n−½})/ρ + ν ∇²uⁿ [m/s²],
 /// ∇p by centred differences, ∇² the seven-point Laplacian. Of the owned cells and one layer around them.
 void explicit_acceleration(const grid::Grid& grid, const state::Gas& gas, const GhostedVector& u,
-                           const GhostedField& pressure, const GhostedVector& body_force, BlockVector& acceleration);
+                           const GhostedField& pressure, const GhostedVector& body_force,
+                           BlockVector& acceleration);
 
-/// The implicit half of the Crank–Nicolson scheme. With the viscous term of uⁿ already in the rate r on entry,
+/// The implicit half of the Crank–Nicolson scheme. With the viscous term of uⁿ already in the rate r on
+/// entry,
 ///   (u* − uⁿ)/Δt = r + ½ν ∇²(u* − uⁿ),
 /// so the rate on exit solves (1 − ½νΔt ∇²) x = r, one Helmholtz problem a component. Collective.
-void diffuse_implicitly(grid::EllipticSolver& elliptic, const state::Gas& gas, double dt, grid::VectorField& rate);
+void diffuse_implicitly(grid::EllipticSolver& elliptic, const state::Gas& gas, double dt,
+                        grid::VectorField& rate);
 
 }  // namespace spume::flow

@@ -15,8 +15,8 @@ inline double upwind(double wind, double calm, double below, double above) {
   return std::abs(wind) > calm ? blown : mean;
 }
 
-/// The normal velocity of a face between two values of it (the Riemann problem of Burgers' equation): none where the
-/// two sides part or balance.
+/// The normal velocity of a face between two values of it (the Riemann problem of Burgers' equation): none
+/// where the two sides part or balance.
 inline double normal_velocity(double calm, double below, double above) {
   const double mean = 0.5 * (below + above);
   const double blown = mean > 0 ? below : above;
@@ -24,8 +24,8 @@ inline double normal_velocity(double calm, double below, double above) {
   return parts || std::abs(mean) <= calm ? 0.0 : blown;
 }
 
-/// Calls body(slab) for slabs of a few planes of `range`, so that what is written for one is still in cache when it is
-/// read for the next term.
+/// Calls body(slab) for slabs of a few planes of `range`, so that what is written for one is still in cache
+/// when it is read for the next term.
 template <class Body>
 void for_each_slab(const CellRange& range, Body&& body) {
   constexpr int planes = 4;
@@ -55,13 +55,16 @@ struct Godunov::NormalTrace {
   double above(std::ptrdiff_t c) const { return value[c] - 0.5 * (1 + speed[c] * ratio) * slope[c]; }
 };
 
-/// The two values at a face at tⁿ + ½Δt, with what accelerates them and the derivatives across the other two axes.
+/// The two values at a face at tⁿ + ½Δt, with what accelerates them and the derivatives across the other two
+/// axes.
 struct Godunov::FaceStates {
   NormalTrace trace;
   const double *acceleration, *transverse_1, *transverse_2;
   double half_dt;
 
-  double change(std::ptrdiff_t c) const { return half_dt * (acceleration[c] - transverse_1[c] - transverse_2[c]); }
+  double change(std::ptrdiff_t c) const {
+    return half_dt * (acceleration[c] - transverse_1[c] - transverse_2[c]);
+  }
   double below(std::ptrdiff_t c) const { return trace.below(c) + change(c - trace.s); }
   double above(std::ptrdiff_t c) const { return trace.above(c) + change(c); }
 };
@@ -75,7 +78,8 @@ Godunov::Godunov(const grid::Grid& grid, bool limit_slopes)
       face_velocity_(block_vector(layout_)),
       face_(layout_) {}
 
-void Godunov::predict_normals(const GhostedVector& u, const BlockVector& acceleration, double speed, double dt) {
+void Godunov::predict_normals(const GhostedVector& u, const BlockVector& acceleration, double speed,
+                              double dt) {
   calm_ = 1e-10 * speed;
   for (int c = 0; c < 3; ++c)
     for (int axis = 0; axis < 3; ++axis)
@@ -100,14 +104,15 @@ Godunov::NormalTrace Godunov::normal_trace(const GhostedVector& u, int component
           layout_.stride(axis)};
 }
 
-Godunov::FaceStates Godunov::face_states(const GhostedVector& u, const BlockVector& acceleration, int component, int axis,
-                                double dt) const {
+Godunov::FaceStates Godunov::face_states(const GhostedVector& u, const BlockVector& acceleration,
+                                         int component, int axis, double dt) const {
   return {normal_trace(u, component, axis, dt), acceleration[component].first(),
-          transverse_[component][(axis + 1) % 3].first(), transverse_[component][(axis + 2) % 3].first(), 0.5 * dt};
+          transverse_[component][(axis + 1) % 3].first(), transverse_[component][(axis + 2) % 3].first(),
+          0.5 * dt};
 }
 
-/// The wind for the transverse terms: normal velocities traced along their own axis, on the owned faces and one layer
-/// around them across the other axes.
+/// The wind for the transverse terms: normal velocities traced along their own axis, on the owned faces and
+/// one layer around them across the other axes.
 void Godunov::trace_normals(const GhostedVector& u, double dt) {
   const double calm = calm_;
   for (int axis = 0; axis < 3; ++axis) {
@@ -122,8 +127,8 @@ void Godunov::trace_normals(const GhostedVector& u, double dt) {
   }
 }
 
-/// u_e ∂u_c/∂x_e of cells from upwind values traced along e alone, of the owned cells and one layer around them across
-/// the other axes.
+/// u_e ∂u_c/∂x_e of cells from upwind values traced along e alone, of the owned cells and one layer around
+/// them across the other axes.
 void Godunov::transverse_terms(const GhostedVector& u, double dt) {
   const double calm = calm_;
   const double scale = 0.5 / grid_.h();

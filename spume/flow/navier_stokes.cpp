@@ -46,10 +46,11 @@ NavierStokes::NavierStokes(const grid::Grid& grid, const state::Gas& gas, const 
 NavierStokes::~NavierStokes() = default;
 
 /// The rate of change (u* − uⁿ)/Δt towards the intermediate velocity, into `rate`. Collective.
+///
 /// Paper: Sec. 3.2.1, Eq. (7).
 ///   ρ ((u* − uⁿ)/Δt + (u·∇u)^{n+½}) = −∇p^{n−½} + μ ½(∇²u* + ∇²uⁿ) + st
-void NavierStokes::Implementation::intermediate_rate(const state::GasFlow& flow, const grid::VectorField& body_force,
-                                                     double dt) {
+void NavierStokes::Implementation::intermediate_rate(const state::GasFlow& flow,
+                                                     const grid::VectorField& body_force, double dt) {
   for (int c = 0; c < 3; ++c) {
     velocity[c].update(flow.velocity[c]);
     force[c].update(body_force[c]);
@@ -65,10 +66,11 @@ void NavierStokes::Implementation::intermediate_rate(const state::GasFlow& flow,
   for (int c = 0; c < 3; ++c) {
     const double* known = acceleration[c].first();
     double* r = rate[c].values().data();
-    for_each_owned_row(layout, layout.owned(), [=](std::ptrdiff_t row, std::ptrdiff_t place, std::ptrdiff_t n) {
+    for_each_owned_row(layout, layout.owned(),
+                       [=](std::ptrdiff_t row, std::ptrdiff_t place, std::ptrdiff_t n) {
 #pragma GCC ivdep
-      for (std::ptrdiff_t i = 0; i < n; ++i) r[place + i] = known[row + i] - r[place + i];
-    });
+                         for (std::ptrdiff_t i = 0; i < n; ++i) r[place + i] = known[row + i] - r[place + i];
+                       });
   }
   diffuse_implicitly(elliptic, gas, dt, rate);
 }
@@ -84,14 +86,15 @@ void NavierStokes::step(state::GasFlow& flow, const grid::VectorField& body_forc
     const std::span<double> u = flow.velocity[c].values();
     for (std::size_t i = 0; i < u.size(); ++i) u[i] += dt * rate[i];
   }
-  now.projection.filter(flow.velocity);
+  now.projection.filter(flow.velocity);  // of the divergence that (8), of the increment, cannot see
   if (!std::isfinite(kinetic_energy(flow, now.gas.density)))
     throw NumericalError("gas flow: the velocity is not finite after a step of " + std::to_string(dt) + " s");
 }
 
 StepLimit NavierStokes::advection_limit(const state::GasFlow& flow, double cfl) const {
   const double speed = max_speed(flow);
-  const double dt = speed > 0 ? cfl * implementation_->grid.h() / speed : std::numeric_limits<double>::infinity();
+  const double dt =
+      speed > 0 ? cfl * implementation_->grid.h() / speed : std::numeric_limits<double>::infinity();
   return {dt, "advection"};
 }
 
@@ -113,7 +116,8 @@ double max_speed(const state::GasFlow& flow) {
   const std::span<const double> u = flow.velocity[0].values(), v = flow.velocity[1].values(),
                                 w = flow.velocity[2].values();
   double largest = 0;
-  for (std::size_t i = 0; i < u.size(); ++i) largest = std::max(largest, u[i] * u[i] + v[i] * v[i] + w[i] * w[i]);
+  for (std::size_t i = 0; i < u.size(); ++i)
+    largest = std::max(largest, u[i] * u[i] + v[i] * v[i] + w[i] * w[i]);
   return std::sqrt(flow.pressure.grid().communicator().max(largest));
 }
 

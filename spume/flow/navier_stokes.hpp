@@ -21,14 +21,22 @@ struct StepLimit {
   std::string reason;  ///< "advection", "capillary waves", …
 };
 
-/// Incompressible flow of the gas (paper Eq. (2)) by the projection method of Sec. 3.2.1: unsplit Godunov advection,
-/// Crank–Nicolson viscosity (7), second-order approximate projection of the increment (8).
+/// Incompressible flow of the gas by the projection method of Sec. 3.2.1: unsplit Godunov advection,
+/// Crank–Nicolson viscosity, approximate projection of the increment; see Eqs. (7) and (8).
+///
+/// Paper: Sec. 2.2.1, Eq. (2).
+///   ρ (u_t + u·∇u) = −∇p + μ ∇²u + st,   ∇·u = 0
+///
+/// Velocity and pressure at cell centres. Second order in h and Δt together on smooth flows. Conserves the
+/// momentum of a periodic box.
 class NavierStokes {
  public:
   NavierStokes(const grid::Grid& grid, const state::Gas& gas, const FlowParameters& parameters);
   ~NavierStokes();
 
-  /// Advances `flow` by dt under a body force density [N/m³]. Collective.
+  /// Advances `flow` by dt under a body force density [N/m³]. Stable for advection CFL numbers up to ½; the
+  /// body force is explicit and has its own limit, see capillary_limit(). Collective.
+  ///
   /// Throws NumericalError when the result is not finite.
   void step(state::GasFlow& flow, const grid::VectorField& body_force, double dt);
 

@@ -7,7 +7,7 @@ namespace spume::flow {
 
 namespace {
 
-/// The owned value at offset c of a block is at place + (c − row) of a field.
+/// Calls body(place, divergence) for every owned cell, at its place in the values of a Field.
 template <class Body>
 void for_each_divergence(const grid::Grid& grid, const BlockLayout& layout, const BlockVector& face_velocity,
                          Body&& body) {
@@ -34,13 +34,15 @@ Projection::Projection(const grid::Grid& grid, grid::EllipticSolver& elliptic)
 
 void Projection::clear_divergence(BlockVector& face_velocity) {
   double* rhs = potential_.values().data();
-  for_each_divergence(grid_, layout_, face_velocity, [=](std::ptrdiff_t c, double value) { rhs[c] = -value; });
+  for_each_divergence(grid_, layout_, face_velocity,
+                      [=](std::ptrdiff_t c, double value) { rhs[c] = -value; });
   elliptic_.solve(0, 1, potential_, potential_);
   ghosted_potential_.update(potential_);
   const double per_h = 1 / grid_.h();
   for (int axis = 0; axis < 3; ++axis) {
     double* normal = face_velocity[axis].first();
-    const std::array<std::ptrdiff_t, 3> stride{1, ghosted_potential_.stride_y(), ghosted_potential_.stride_z()};
+    const std::array<std::ptrdiff_t, 3> stride{1, ghosted_potential_.stride_y(),
+                                               ghosted_potential_.stride_z()};
     const std::ptrdiff_t s = stride[axis];
     const CellRange faces = layout_.owned_faces(axis);
     for (int k = faces.lower.k; k < faces.upper.k; ++k)
@@ -97,7 +99,9 @@ void Projection::project(double density, grid::VectorField& rate, grid::Field& p
   for (std::size_t i = 0; i < p.size(); ++i) p[i] += density * phi[i];  // ψ = ρφ
 }
 
-void Projection::filter(grid::VectorField& velocity) { remove_gradient(velocity); }
+void Projection::filter(grid::VectorField& velocity) {
+  remove_gradient(velocity);
+}
 
 double max_divergence(const grid::Grid& grid, const BlockVector& face_velocity) {
   double largest = 0;

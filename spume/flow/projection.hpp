@@ -10,21 +10,26 @@ class Projection {
  public:
   Projection(const grid::Grid& grid, grid::EllipticSolver& elliptic);
 
-  /// MAC projection: takes from velocities on faces the gradient that leaves every owned cell without divergence, to
-  /// the accuracy of the elliptic solver. Collective.
+  /// MAC projection: takes from velocities on faces the gradient that leaves every owned cell without
+  /// divergence, to the accuracy of the elliptic solver. Collective.
   void clear_divergence(BlockVector& face_velocity);
 
-  /// Approximate projection 𝒫 of the rate of change of the velocity, and the pressure that it takes. Collective.
+  /// Approximate projection 𝒫 of the rate of change of the velocity, and the pressure that it takes.
+  /// Collective.
+  ///
   /// Paper: Sec. 3.2.1, Eq. (8).
   ///   (uⁿ⁺¹ − uⁿ)/Δt = 𝒫 x = x − Gψ/ρ,   ∇²_h ψ = ρ D x,   p^{n+½} = p^{n−½} + ψ,   x = (u* − uⁿ)/Δt
-  /// D and G are centred differences at cell centres: faces take the mean of their two cells, and cells the mean of
-  /// their two faces. D G is a wider Laplacian than ∇²_h, hence "approximate": of a gradient of phase advance θ over a
-  /// cell, 𝒫 leaves the part sin²(θ/2), which is O(h²) on smooth fields.
-  /// Differs from the paper: pressure at cell centres instead of nodes, so that one elliptic operator serves all.
+  ///
+  /// D and G are centred differences at cell centres: faces take the mean of their two cells, and cells the
+  /// mean of their two faces. D G is a wider Laplacian than ∇²_h, hence "approximate": of a gradient of phase
+  /// advance θ over a cell, 𝒫 leaves the part sin²(θ/2), which is O(h²) on smooth fields.
+  /// Differs from the paper: pressure at cell centres instead of nodes, so that one elliptic operator serves
+  /// all.
   void project(double density, grid::VectorField& rate, grid::Field& pressure);
 
-  /// 𝒫 of a velocity: u ← 𝒫 u. What projecting rates of change alone leaves behind would add up over the steps, since
-  /// the divergence of uⁿ is in nothing that Eq. (8) sees; after this it is smaller by sin²(θ/2) a step. Collective.
+  /// 𝒫 of a velocity: u ← 𝒫 u. What projecting rates of change alone leaves behind would add up over the
+  /// steps, since the divergence of uⁿ is in nothing that Eq. (8) sees; after this it is smaller by sin²(θ/2)
+  /// a step. Collective.
   void filter(grid::VectorField& velocity);
 
  private:

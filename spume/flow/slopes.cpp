@@ -7,7 +7,8 @@ namespace spume::flow {
 
 namespace {
 
-/// `slope` cut to twice the smaller of the differences to the two neighbours, zero where they disagree in sign.
+/// `slope` cut to twice the smaller of the differences to the two neighbours, zero where they disagree in
+/// sign.
 inline double limited(double slope, double below, double above) {
   const double bound = 2 * std::min(std::abs(below), std::abs(above));
   const double cut = std::max(-bound, std::min(bound, slope));
@@ -35,11 +36,14 @@ void slopes_of_row(std::ptrdiff_t n, std::ptrdiff_t s, const double* u, double* 
 
 }  // namespace
 
-void slopes(const BlockLayout& layout, const CellRange& range, int axis, bool limit, const double* u, double* slope) {
+void slopes(const BlockLayout& layout, const CellRange& range, int axis, bool limit, const double* u,
+            double* slope) {
   const std::ptrdiff_t s = layout.stride(axis);
   for_each_row(layout, range, [&](std::ptrdiff_t row, std::ptrdiff_t n) {
-    if (limit) slopes_of_row<true>(n, s, u + row, slope + row);
-    else slopes_of_row<false>(n, s, u + row, slope + row);
+    if (limit)
+      slopes_of_row<true>(n, s, u + row, slope + row);
+    else
+      slopes_of_row<false>(n, s, u + row, slope + row);
   });
 }
 

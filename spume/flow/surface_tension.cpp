@@ -15,8 +15,8 @@ FilmForces film_forces(const mesh::FilmMesh& films, const mesh::Topology& topolo
   return forces;
 }
 
-void spread_film_forces(const mesh::FilmMesh& films, const FilmForces& forces, const grid::KernelCoupling& kernel,
-                        grid::VectorField& density) {
+void spread_film_forces(const mesh::FilmMesh& films, const FilmForces& forces,
+                        const grid::KernelCoupling& kernel, grid::VectorField& density) {
   for (grid::Field& component : density.components) component.fill(0);
   kernel.spread(films.position, forces.on_vertex, density);
 }

@@ -12,8 +12,8 @@ namespace spume::flow {
 
 /// Film forces as the gas feels them.
 struct FilmForces {
-  std::vector<Vec3> on_vertex;     ///< what is left after the pressure part is taken out [N]
-  std::vector<double> pressure;    ///< P_i of each phase, relative to the outside [Pa]
+  std::vector<Vec3> on_vertex;   ///< what is left after the pressure part is taken out [N]
+  std::vector<double> pressure;  ///< P_i of each phase, relative to the outside [Pa]
 };
 
 /// F_v = −2σ ∂A/∂x_v (every film once), less its pure-pressure part Σ_i P_i ∂V_i/∂x_v.
@@ -21,7 +21,7 @@ FilmForces film_forces(const mesh::FilmMesh& films, const mesh::Topology& topolo
                        double surface_tension);
 
 /// st_ζ of the paper's (7): the remaining vertex forces spread by the kernel [N/m³]. Overwrites `density`.
-void spread_film_forces(const mesh::FilmMesh& films, const FilmForces& forces, const grid::KernelCoupling& kernel,
-                        grid::VectorField& density);
+void spread_film_forces(const mesh::FilmMesh& films, const FilmForces& forces,
+                        const grid::KernelCoupling& kernel, grid::VectorField& density);
 
 }  // namespace spume::flow

@@ -16,9 +16,9 @@ enum class Boundary {
 
 /// The simulated box and its cubic cells.
 struct Box {
-  Vec3 lower;                                                                     ///< [m]
-  Vec3 upper;                                                                     ///< [m]
-  Index3 cells;                                                                   ///< number along x, y, z
+  Vec3 lower;    ///< [m]
+  Vec3 upper;    ///< [m]
+  Index3 cells;  ///< number along x, y, z
   std::array<Boundary, 3> boundary{Boundary::Periodic, Boundary::Periodic, Boundary::Periodic};
 
   /// Edge of a cell h [m].

@@ -10,8 +10,8 @@ namespace spume::grid {
 
 namespace {
 
-/// Eigenvalues (2 − 2cos θ)/h² = (2 sin(θ/2)/h)² of −∂²/∂x_d² as three points see it; the second form keeps its
-/// precision for small θ.
+/// Eigenvalues (2 − 2cos θ)/h² = (2 sin(θ/2)/h)² of −∂²/∂x_d² as three points see it; the second form keeps
+/// its precision for small θ.
 std::vector<double> laplacian_eigenvalues(std::span<const double> theta, double h) {
   std::vector<double> eigenvalues;
   for (const double angle : theta) eigenvalues.push_back(std::pow(2 * std::sin(angle / 2) / h, 2));
@@ -53,8 +53,10 @@ void EllipticSolver::solve(double a, double b, const Field& f, Field& x) {
   expects(a >= 0 && b > 0, "elliptic problems have a >= 0 and b > 0");
   expects(&f.grid() == implementation_->grid && &x.grid() == implementation_->grid,
           "a solver works on fields of its grid");
-  if (implementation_->backend == EllipticBackend::Trigonometric) solve_trigonometric(a, b, f, x);
-  else implementation_->multigrid.solve(a, b, f, x);
+  if (implementation_->backend == EllipticBackend::Trigonometric)
+    solve_trigonometric(a, b, f, x);
+  else
+    implementation_->multigrid.solve(a, b, f, x);
 }
 
 }  // namespace spume::grid

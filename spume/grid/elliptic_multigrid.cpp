@@ -21,7 +21,8 @@ constexpr std::size_t systems_kept = 8;
 constexpr int max_coarsest_cells = 64;  // solved by a dense singular value decomposition
 constexpr int max_iterations = 200;
 
-/// The cells of one level: their centres along each axis in units of the fine cell edge, and the layers this rank holds.
+/// The cells of one level: their centres along each axis in units of the fine cell edge, and the layers this
+/// rank holds.
 struct Level {
   std::array<std::vector<double>, 3> centre;
   int z_begin, z_end;
@@ -64,8 +65,8 @@ struct Interpolation {
   std::array<double, 2> weight;
 };
 
-std::vector<Interpolation> interpolate(const std::vector<double>& fine, const std::vector<double>& coarse, int n,
-                                       Boundary boundary, Parity parity) {
+std::vector<Interpolation> interpolate(const std::vector<double>& fine, const std::vector<double>& coarse,
+                                       int n, Boundary boundary, Parity parity) {
   const int n_coarse = static_cast<int>(coarse.size());
   const bool periodic = boundary == Boundary::Periodic;
   // The ghost beyond either end: a periodic image, or the mirror image at the wall.
@@ -80,8 +81,8 @@ std::vector<Interpolation> interpolate(const std::vector<double>& fine, const st
     const double t = (x - x_left) / (x_right - x_left);
     const int left_cell = right > 0 ? right - 1 : periodic ? n_coarse - 1 : 0;
     const int right_cell = right < n_coarse ? right : periodic ? 0 : n_coarse - 1;
-    result.push_back({{left_cell, right_cell},
-                      {right == 0 ? sign * (1 - t) : 1 - t, right == n_coarse ? sign * t : t}});
+    result.push_back(
+        {{left_cell, right_cell}, {right == 0 ? sign * (1 - t) : 1 - t, right == n_coarse ? sign * t : t}});
   }
   return result;
 }
@@ -98,7 +99,8 @@ void assemble(Mat matrix) {
   petsc_check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
 }
 
-Matrix interpolation_matrix(const Grid& grid, const Level& fine, const Level& coarse, const Symmetry& symmetry) {
+Matrix interpolation_matrix(const Grid& grid, const Level& fine, const Level& coarse,
+                            const Symmetry& symmetry) {
   std::array<std::vector<Interpolation>, 3> along;
   for (int axis = 0; axis < 3; ++axis)
     along[axis] = interpolate(fine.centre[axis], coarse.centre[axis], grid.cells()[axis],
@@ -123,9 +125,11 @@ Matrix interpolation_matrix(const Grid& grid, const Level& fine, const Level& co
   return matrix;
 }
 
-/// The equation is divided by this, the diagonal far from walls: PETSc's dense solver takes singular values below 1e-12
-/// for zero, whatever the units.
-double diagonal_scale(const Grid& grid, double a, double b) { return a + 6 * b / (grid.h() * grid.h()); }
+/// The equation is divided by this, the diagonal far from walls: PETSc's dense solver takes singular values
+/// below 1e-12 for zero, whatever the units.
+double diagonal_scale(const Grid& grid, double a, double b) {
+  return a + 6 * b / (grid.h() * grid.h());
+}
 
 /// a − b ∇²_h, scaled: the seven-point operator with mirror ghosts eliminated.
 Matrix operator_matrix(const Grid& grid, double a, double b, const Symmetry& symmetry) {
@@ -187,12 +191,13 @@ std::vector<Matrix> make_operators(Matrix finest, const std::vector<Matrix>& int
   std::vector<Matrix> operators(interpolations.size() + 1);
   operators.back() = std::move(finest);
   for (std::size_t level = interpolations.size(); level > 0; --level)
-    petsc_check(MatPtAP(operators[level].get(), interpolations[level - 1].get(), MAT_INITIAL_MATRIX, PETSC_DEFAULT,
-                        operators[level - 1].out()));
+    petsc_check(MatPtAP(operators[level].get(), interpolations[level - 1].get(), MAT_INITIAL_MATRIX,
+                        PETSC_DEFAULT, operators[level - 1].out()));
   return operators;
 }
 
-/// Upper bound of the eigenvalues of the operator scaled by its diagonal: max over rows of Σ|a_ij|/a_ii (Gershgorin).
+/// Upper bound of the eigenvalues of the operator scaled by its diagonal: max over rows of Σ|a_ij|/a_ii
+/// (Gershgorin).
 double largest_eigenvalue_bound(Mat matrix, const parallel::Communicator& communicator) {
   PetscInt begin = 0, end = 0;
   petsc_check(MatGetOwnershipRange(matrix, &begin, &end));
@@ -213,8 +218,8 @@ double largest_eigenvalue_bound(Mat matrix, const parallel::Communicator& commun
   return communicator.max(bound);
 }
 
-/// Two Chebyshev–Jacobi sweeps before and after the coarser level, over the upper part of the spectrum, which that level
-/// does not represent.
+/// Two Chebyshev–Jacobi sweeps before and after the coarser level, over the upper part of the spectrum, which
+/// that level does not represent.
 void set_smoother(PC multigrid, int level, Mat matrix, const parallel::Communicator& communicator) {
   KSP smoother;
   PC jacobi;
@@ -229,7 +234,8 @@ void set_smoother(PC multigrid, int level, Mat matrix, const parallel::Communica
   petsc_check(PCSetType(jacobi, PCJACOBI));
 }
 
-/// The coarsest level on every rank at once, by a singular value decomposition, which takes singular operators.
+/// The coarsest level on every rank at once, by a singular value decomposition, which takes singular
+/// operators.
 void set_coarsest(PC multigrid, Mat matrix) {
   KSP coarsest, inner;
   PC redundant, decomposition;
@@ -254,7 +260,8 @@ MultigridSolver::System MultigridSolver::make_system(double a, double b, const S
     if (boundary[axis] != Boundary::Periodic && symmetry[axis] == Parity::Odd) system.singular = false;
 
   const std::vector<Matrix> interpolations = make_interpolations(*grid_, symmetry);
-  const std::vector<Matrix> operators = make_operators(operator_matrix(*grid_, a, b, symmetry), interpolations);
+  const std::vector<Matrix> operators =
+      make_operators(operator_matrix(*grid_, a, b, symmetry), interpolations);
   const int n_levels = static_cast<int>(operators.size());
   const Mat finest = operators.back().get();
   if (system.singular) attach_constants(finest, comm);
@@ -317,8 +324,9 @@ void MultigridSolver::solve(double a, double b, const Field& f, Field& x) {
     petsc_check(KSPGetIterationNumber(s.krylov.get(), &iterations));
     petsc_check(KSPGetResidualNorm(s.krylov.get(), &residual));
     std::ostringstream message;
-    message << "multigrid: no convergence to relative residual " << tolerance_ << " (" << KSPConvergedReasons[reason]
-            << " after " << iterations << " iterations, residual " << residual << ")";
+    message << "multigrid: no convergence to relative residual " << tolerance_ << " ("
+            << KSPConvergedReasons[reason] << " after " << iterations << " iterations, residual " << residual
+            << ")";
     throw NumericalError(message.str());
   }
   if (s.singular) {

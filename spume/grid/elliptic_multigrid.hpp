@@ -11,11 +11,11 @@
 // Internal to grid/: brings PETSc's headers.
 namespace spume::grid {
 
-/// (a − b ∇²_h) x = f by conjugate gradients preconditioned with one V-cycle of geometric multigrid (PETSc's PCMG).
-/// Coarse cells join two cells along each direction (the last one is single where their number is odd), the
-/// interpolation is trilinear between the centres of coarse cells, restriction is its transpose, and the coarse
-/// operators are Galerkin products, so any number of cells and any mix of boundaries works. Chebyshev–Jacobi smoothing
-/// keeps the preconditioner symmetric and independent of the number of ranks.
+/// (a − b ∇²_h) x = f by conjugate gradients preconditioned with one V-cycle of geometric multigrid (PETSc's
+/// PCMG). Coarse cells join two cells along each direction (the last one is single where their number is
+/// odd), the interpolation is trilinear between the centres of coarse cells, restriction is its transpose,
+/// and the coarse operators are Galerkin products, so any number of cells and any mix of boundaries works.
+/// Chebyshev–Jacobi smoothing keeps the preconditioner symmetric and independent of the number of ranks.
 class MultigridSolver {
  public:
   MultigridSolver(const Grid& grid, double tolerance) : grid_(&grid), tolerance_(tolerance) {}

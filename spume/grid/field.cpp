@@ -30,7 +30,8 @@ struct GhostedShape {
   std::array<std::ptrdiff_t, 3> stride;
 };
 
-/// Sets the plane `to` across `axis` (counted in the buffer, ghosts included) to `sign` times the plane `from`.
+/// Sets the plane `to` across `axis` (counted in the buffer, ghosts included) to `sign` times the plane
+/// `from`.
 void copy_plane(const GhostedShape& shape, int axis, int to, int from, double sign, double* buffer) {
   double* target = buffer + to * shape.stride[axis];
   const double* source = buffer + from * shape.stride[axis];
@@ -44,14 +45,16 @@ void copy_plane(const GhostedShape& shape, int axis, int to, int from, double si
 
 enum class Side { Lower, Upper };
 
-/// Mirror images beyond a wall, over the whole extent of the other axes, their ghosts included: filling the axes one
-/// after another therefore fills edges and corners too.
+/// Mirror images beyond a wall, over the whole extent of the other axes, their ghosts included: filling the
+/// axes one after another therefore fills edges and corners too.
 void mirror(const GhostedShape& shape, int axis, Side side, Parity parity, double* buffer) {
   const int w = shape.width, n = shape.inner[axis];  // inner planes are w … w+n−1
   const double sign = parity == Parity::Odd ? -1.0 : 1.0;
   for (int g = 0; g < w; ++g) {
-    if (side == Side::Lower) copy_plane(shape, axis, w - 1 - g, w + g, sign, buffer);
-    else copy_plane(shape, axis, w + n + g, w + n - 1 - g, sign, buffer);
+    if (side == Side::Lower)
+      copy_plane(shape, axis, w - 1 - g, w + g, sign, buffer);
+    else
+      copy_plane(shape, axis, w + n + g, w + n - 1 - g, sign, buffer);
   }
 }
 
@@ -112,8 +115,8 @@ std::vector<double> gather(const Field& f) {
   MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator.handle());
   MPI_Allgather(&offset, 1, MPI_INT, offsets.data(), 1, MPI_INT, communicator.handle());
   std::vector<double> whole(grid.total_size());
-  MPI_Allgatherv(f.values().data(), count, MPI_DOUBLE, whole.data(), counts.data(), offsets.data(), MPI_DOUBLE,
-                 communicator.handle());
+  MPI_Allgatherv(f.values().data(), count, MPI_DOUBLE, whole.data(), counts.data(), offsets.data(),
+                 MPI_DOUBLE, communicator.handle());
   return whole;
 }
 

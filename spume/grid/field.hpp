@@ -9,8 +9,8 @@
 
 namespace spume::grid {
 
-/// How a field continues across a wall, by mirror images: even (zero normal derivative at the face) or odd (zero at
-/// the face). Of no effect in periodic directions.
+/// How a field continues across a wall, by mirror images: even (zero normal derivative at the face) or odd
+/// (zero at the face). Of no effect in periodic directions.
 enum class Parity { Even, Odd };
 using Symmetry = std::array<Parity, 3>;  ///< for walls across x, y, z
 
@@ -20,8 +20,8 @@ inline constexpr Symmetry even_symmetry{Parity::Even, Parity::Even, Parity::Even
 /// component and even for the others.
 Symmetry velocity_symmetry(const Box& box, int component);
 
-/// A cell-centred scalar field. Each rank holds its own slab, contiguous with i fastest: the value of cell (i, j, k)
-/// is at ((k − z_begin) n_y + j) n_x + i.
+/// A cell-centred scalar field. Each rank holds its own slab, contiguous with i fastest: the value of cell
+/// (i, j, k) is at ((k − z_begin) n_y + j) n_x + i.
 class Field {
  public:
   explicit Field(const Grid& grid, Symmetry symmetry = even_symmetry)
@@ -62,16 +62,18 @@ class OwnedView {
   double* data_;
   int nx_, ny_, k0_;
 };
-inline OwnedView owned(Field& f) { return OwnedView(f); }
+inline OwnedView owned(Field& f) {
+  return OwnedView(f);
+}
 
-/// Fills `buffer` with the owned cells of `f` and `width` layers of ghosts on every side: neighbours' cells, periodic
-/// images, or mirror images at walls, edges and corners included. Collective. 1 ≤ width ≤ 4.
-/// Shape: (nx+2w)(ny+2w)(nz_owned+2w), i fastest.
+/// Fills `buffer` with the owned cells of `f` and `width` layers of ghosts on every side: neighbours' cells,
+/// periodic images, or mirror images at walls, edges and corners included. Collective. 1 ≤ width ≤ 4. Shape:
+/// (nx+2w)(ny+2w)(nz_owned+2w), i fastest.
 void exchange_ghosts(const Field& f, int width, std::vector<double>& buffer);
 
-/// Read-only copy of a field with W layers of ghosts, addressed by global indices from −W to n+W−1 (along z from
-/// z_begin−W to z_end+W−1). A function that needs a stencil of width W takes a Ghosted<W>, so that forgetting the
-/// exchange cannot be written. Collective construction and update().
+/// Read-only copy of a field with W layers of ghosts, addressed by global indices from −W to n+W−1 (along z
+/// from z_begin−W to z_end+W−1). A function that needs a stencil of width W takes a Ghosted<W>, so that
+/// forgetting the exchange cannot be written. Collective construction and update().
 template <int W>
 class Ghosted {
  public:
@@ -105,8 +107,8 @@ void scatter(std::span<const double> whole, Field& f);
 
 /// Sum over all cells, bitwise the same on every rank and on any number of ranks. Collective.
 double sum(const Field& f);
-/// Largest |value|; infinite where a value is not a number, so that a lost computation cannot pass for a small one.
-/// Collective.
+/// Largest |value|; infinite where a value is not a number, so that a lost computation cannot pass for a
+/// small one. Collective.
 double max_abs(const Field& f);
 
 }  // namespace spume::grid

@@ -33,8 +33,9 @@ void check_slabs(const Index3& cells, int ranks) {
   if (thinnest_slab(cells.k, ranks) >= min_layers) return;
   int possible = ranks - 1;
   while (thinnest_slab(cells.k, possible) < min_layers) --possible;
-  throw InputError("too many ranks: " + std::to_string(cells.k) + " layers of cells along z cannot be cut into " +
-                   std::to_string(ranks) + " slabs of at least " + std::to_string(min_layers) +
+  throw InputError("too many ranks: " + std::to_string(cells.k) +
+                   " layers of cells along z cannot be cut into " + std::to_string(ranks) +
+                   " slabs of at least " + std::to_string(min_layers) +
                    " layers; the largest number of ranks below that works is " + std::to_string(possible));
 }
 
@@ -61,11 +62,12 @@ GhostExchange make_exchange(const Grid& grid, int width) {
 
   GhostExchange exchange;
   petsc_check(DMDACreate3d(comm, petsc_boundary(boundary[0]), petsc_boundary(boundary[1]),
-                           petsc_boundary(boundary[2]), DMDA_STENCIL_BOX, n.i, n.j, n.k, 1, 1, ranks, 1, width,
-                           &n.i, &n.j, layers.data(), exchange.dm.out()));
+                           petsc_boundary(boundary[2]), DMDA_STENCIL_BOX, n.i, n.j, n.k, 1, 1, ranks, 1,
+                           width, &n.i, &n.j, layers.data(), exchange.dm.out()));
   petsc_check(DMSetUp(exchange.dm.get()));
   const auto owned_size = static_cast<PetscInt>(grid.owned_size());
-  const PetscInt ghosted_size = (n.i + 2 * width) * (n.j + 2 * width) * (grid.z_end() - grid.z_begin() + 2 * width);
+  const PetscInt ghosted_size =
+      (n.i + 2 * width) * (n.j + 2 * width) * (grid.z_end() - grid.z_begin() + 2 * width);
   petsc_check(VecCreateMPIWithArray(comm, 1, owned_size, PETSC_DETERMINE, nullptr, exchange.owned.out()));
   petsc_check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, ghosted_size, nullptr, exchange.ghosted.out()));
   return exchange;
@@ -74,7 +76,10 @@ GhostExchange make_exchange(const Grid& grid, int width) {
 }  // namespace
 
 Grid::Grid(const parallel::Communicator& communicator, const Box& box)
-    : communicator_(communicator), box_(box), h_(box.spacing()), implementation_(std::make_unique<Implementation>()) {
+    : communicator_(communicator),
+      box_(box),
+      h_(box.spacing()),
+      implementation_(std::make_unique<Implementation>()) {
   const int ranks = communicator.size();
   check_slabs(box.cells, ranks);
   check_box(box);

@@ -10,28 +10,26 @@
 
 namespace spume::grid {
 
-/// A regular grid of cubic cells, cut into slabs along z, one slab a rank: a PETSc DMDA whose ownership ranges are
-/// those of FFTW-MPI (block size ⌈n_z/ranks⌉). Cell (i, j, k) has its centre at lower + (i+½, j+½, k+½) h.
-/// Fields keep a reference to their grid, so a grid neither moves nor is copied.
+/// A regular grid of cubic cells, cut into slabs along z, one slab a rank: a PETSc DMDA whose ownership
+/// ranges are those of FFTW-MPI (block size ⌈n_z/ranks⌉). Cell (i, j, k) has its centre at lower + (i+½, j+½,
+/// k+½) h. Fields keep a reference to their grid, so a grid neither moves nor is copied.
 class Grid {
  public:
-  /// Collective. Throws InputError when a direction has fewer than 4 cells, or when a slab would be thinner than 4
-  /// cells (too many ranks), naming the largest smaller number of ranks that works.
+  /// Collective. Throws InputError when a direction has fewer than 4 cells, or when a slab would be thinner
+  /// than 4 cells (too many ranks), naming the largest smaller number of ranks that works.
   Grid(const parallel::Communicator& communicator, const Box& box);
   ~Grid();
   Grid(const Grid&) = delete;
   Grid& operator=(const Grid&) = delete;
 
   const Box& box() const { return box_; }
-  double h() const { return h_; }                 ///< cell edge [m]
-  Index3 cells() const { return box_.cells; }     ///< of the whole box
-  int z_begin() const { return z_begin_; }        ///< first owned layer k
-  int z_end() const { return z_end_; }            ///< one past the last owned layer
+  double h() const { return h_; }              ///< cell edge [m]
+  Index3 cells() const { return box_.cells; }  ///< of the whole box
+  int z_begin() const { return z_begin_; }     ///< first owned layer k
+  int z_end() const { return z_end_; }         ///< one past the last owned layer
   std::size_t owned_size() const { return owned_size_; }
   std::size_t total_size() const { return total_size_; }
-  Vec3 centre(int i, int j, int k) const {
-    return box_.lower + h_ * Vec3{i + 0.5, j + 0.5, k + 0.5};
-  }
+  Vec3 centre(int i, int j, int k) const { return box_.lower + h_ * Vec3{i + 0.5, j + 0.5, k + 0.5}; }
   const parallel::Communicator& communicator() const { return communicator_; }
 
   /// The PETSc and FFTW side (DMDA, transforms); only grid/ sees its definition.

@@ -13,8 +13,8 @@
 // Internal to grid/: brings PETSc's headers.
 namespace spume::grid {
 
-/// A DMDA with `width` layers of ghosts, and the two vectors without storage through which it moves the values of
-/// fields.
+/// A DMDA with `width` layers of ghosts, and the two vectors without storage through which it moves the
+/// values of fields.
 struct GhostExchange {
   parallel::PetscOwner<DM, DMDestroy> dm;
   parallel::PetscOwner<Vec, VecDestroy> owned;    ///< global vector: PETSc's ordering is that of Field

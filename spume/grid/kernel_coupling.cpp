@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <string>
+#include <sstream>
 
 #include "spume/base/contract.hpp"
 #include "spume/base/error.hpp"
@@ -53,6 +53,13 @@ Stencil make_stencil(double position, double zeta, int n, Boundary boundary) {
   return stencil;
 }
 
+[[noreturn]] void throw_lost(const Vec3& point) {
+  std::ostringstream message;
+  message << "a point of the film mesh is not finite or has left the box for good: (" << point.x << ", "
+          << point.y << ", " << point.z << ") m";
+  throw NumericalError(message.str());
+}
+
 /// Kernels of points on a grid, and the part of them that a rank owns.
 class Kernels {
  public:
@@ -60,15 +67,14 @@ class Kernels {
     expects(zeta >= 1 && zeta <= 4, "the kernel reaches 1 to 4 cells");
   }
 
-  /// Calls body(m, layer) for the m-th layer of the kernel of `point` where this rank owns it; x() and y() then hold
-  /// the other directions, and z() all layers.
+  /// Calls body(m, layer) for the m-th layer of the kernel of `point` where this rank owns it, counted from
+  /// z_begin; along(axis) then holds the kernel of the point.
   template <class Body>
   void for_owned_layers(const Vec3& point, Body&& body) {
     const Vec3 position = (point - grid_->box().lower) / grid_->h();
     // Also false for NaN. Farther points would not fit an int.
     if (!(std::abs(position.x) < 1e9 && std::abs(position.y) < 1e9 && std::abs(position.z) < 1e9))
-      throw NumericalError("a point of the film mesh has left the box or is not finite: (" + std::to_string(point.x) +
-                           ", " + std::to_string(point.y) + ", " + std::to_string(point.z) + ") m");
+      throw_lost(point);
     along_[2] = stencil(position, 2);
     bool others_made = false;
     for (int m = 0; m < along_[2].n_cells; ++m) {
@@ -97,7 +103,8 @@ class Kernels {
 
 }  // namespace
 
-void KernelCoupling::spread(std::span<const Vec3> points, std::span<const Vec3> forces, VectorField& density) const {
+void KernelCoupling::spread(std::span<const Vec3> points, std::span<const Vec3> forces,
+                            VectorField& density) const {
   expects(points.size() == forces.size(), "one force per point");
   const Grid& grid = density[0].grid();
   const Index3 n = grid.cells();
@@ -120,13 +127,14 @@ void KernelCoupling::spread(std::span<const Vec3> points, std::span<const Vec3> 
     });
 }
 
-void KernelCoupling::sample(const VectorField& u, std::span<const Vec3> points, std::vector<Vec3>& velocities) const {
+void KernelCoupling::sample(const VectorField& u, std::span<const Vec3> points,
+                            std::vector<Vec3>& velocities) const {
   const Grid& grid = u[0].grid();
   const Index3 n = grid.cells();
   Kernels kernels(grid, half_width_cells);
   const Stencil &x = kernels.along(0), &y = kernels.along(1), &z = kernels.along(2);
-  // One number per point, layer and component: a layer has one owner, so the sum over ranks is exact, and layers are
-  // then added in one order, whatever the number of ranks.
+  // One number per point, layer and component: a layer has one owner, so the sum over ranks is exact, and
+  // layers are then added in one order, whatever the number of ranks.
   const int max_layers = static_cast<int>(2 * half_width_cells) + 1;
   std::vector<double> of_layer(points.size() * max_layers * 3, 0.0);
   for (std::size_t p = 0; p < points.size(); ++p)

@@ -8,14 +8,15 @@
 
 namespace spume::grid {
 
-/// Multiplies the trigonometric coefficients of a field by a real factor m(θ), even in each θ_d, where θ_d ∈ [0, π] is
-/// the phase advance over one cell along direction d (wave number k_d = θ_d / h). Periodic directions use the discrete
-/// Fourier transform, walls the cosine (even) or sine (odd) transform of cell-centred values (DCT-II, DST-II).
-/// The factor is tabulated once; applying costs one transform pair. m(0) multiplies the mean.
-/// The filters of one grid share its plans and buffers, one set a symmetry.
+/// Multiplies the trigonometric coefficients of a field by a real factor m(θ), even in each θ_d, where θ_d ∈
+/// [0, π] is the phase advance over one cell along direction d (wave number k_d = θ_d / h). Periodic
+/// directions use the discrete Fourier transform, walls the cosine (even) or sine (odd) transform of
+/// cell-centred values (DCT-II, DST-II). The factor is tabulated once; applying costs one transform pair.
+/// m(0) multiplies the mean. The filters of one grid share its plans and buffers, one set a symmetry.
 class SpectralFilter {
  public:
-  /// Collective. `symmetry`: of the fields that it will be applied to, whatever symmetry they carry themselves.
+  /// Collective. `symmetry`: of the fields that it will be applied to, whatever symmetry they carry
+  /// themselves.
   SpectralFilter(const Grid& grid, Symmetry symmetry, const std::function<double(const Vec3& theta)>& factor);
   ~SpectralFilter();
   SpectralFilter(SpectralFilter&&) noexcept;

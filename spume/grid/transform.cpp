@@ -26,23 +26,31 @@ Kinds real_kinds(Boundary boundary, Parity parity) {
 std::vector<double> phase_advance(Boundary boundary, Parity parity, int n, int n_modes) {
   std::vector<double> theta(n_modes);
   for (int m = 0; m < n_modes; ++m) {
-    if (boundary == Boundary::Periodic) theta[m] = 2 * std::numbers::pi * std::min(m, n - m) / n;
-    else theta[m] = std::numbers::pi * (parity == Parity::Even ? m : m + 1) / n;
+    if (boundary == Boundary::Periodic)
+      theta[m] = 2 * std::numbers::pi * std::min(m, n - m) / n;
+    else
+      theta[m] = std::numbers::pi * (parity == Parity::Even ? m : m + 1) / n;
   }
   return theta;
 }
 
-/// Rows start on 32 bytes, for vector instructions, and an odd number of 32 bytes apart, so that steps along y or z do
-/// not fall into a few sets of the cache.
-std::ptrdiff_t padded_row(std::ptrdiff_t n_doubles) { return 4 * ((n_doubles + 3) / 4 | 1); }
+/// Rows start on 32 bytes, for vector instructions, and an odd number of 32 bytes apart, so that steps along
+/// y or z do not fall into a few sets of the cache.
+std::ptrdiff_t padded_row(std::ptrdiff_t n_doubles) {
+  return 4 * ((n_doubles + 3) / 4 | 1);
+}
 
-fftw_complex* as_complex(double* values) { return reinterpret_cast<fftw_complex*>(values); }
+fftw_complex* as_complex(double* values) {
+  return reinterpret_cast<fftw_complex*>(values);
+}
 
 }  // namespace
 
 void Transform::Pass::execute(fftw_plan plan, double* plane) const {
-  if (is_complex) fftw_execute_dft(plan, as_complex(plane), as_complex(plane));
-  else fftw_execute_r2r(plan, plane, plane);
+  if (is_complex)
+    fftw_execute_dft(plan, as_complex(plane), as_complex(plane));
+  else
+    fftw_execute_r2r(plan, plane, plane);
 }
 
 Transform::Transform(const Grid& grid, const Symmetry& symmetry)
@@ -80,16 +88,18 @@ void Transform::make_buffers(MPI_Comm comm) {
   const std::array<std::ptrdiff_t, 2> n{n_.k, n_.j};
   const auto block = FFTW_MPI_DEFAULT_BLOCK;
   std::ptrdiff_t n_layers = 0, z_begin = 0, n_planes = 0, y_begin = 0;
-  const std::ptrdiff_t size = fftw_mpi_local_size_many_transposed(2, n.data(), row_length_, block, block, comm,
-                                                                  &n_layers, &z_begin, &n_planes, &y_begin);
+  const std::ptrdiff_t size = fftw_mpi_local_size_many_transposed(
+      2, n.data(), row_length_, block, block, comm, &n_layers, &z_begin, &n_planes, &y_begin);
   expects(n_layers == n_layers_, "the slabs of a grid are those of FFTW");
   n_planes_ = static_cast<int>(n_planes);
   y_begin_ = static_cast<int>(y_begin);
   // Plans are made on one layer and one plane, which a rank with few rows may not own.
   buffer_ = allocate(std::max(size, std::max(n_.j, n_.k) * row_length_));
   double* data = buffer_.get();
-  to_planes_.reset(fftw_mpi_plan_many_transpose(n[0], n[1], row_length_, block, block, data, data, comm, effort));
-  to_layers_.reset(fftw_mpi_plan_many_transpose(n[1], n[0], row_length_, block, block, data, data, comm, effort));
+  to_planes_.reset(
+      fftw_mpi_plan_many_transpose(n[0], n[1], row_length_, block, block, data, data, comm, effort));
+  to_layers_.reset(
+      fftw_mpi_plan_many_transpose(n[1], n[0], row_length_, block, block, data, data, comm, effort));
   expects(to_planes_ && to_layers_, "FFTW transposes every size");
 }
 
@@ -113,8 +123,8 @@ Transform::Pass Transform::plan_plane(int n, Boundary boundary, Parity parity, d
   if (pass.is_complex) {
     const auto plan = [&](int sign) {
       const int stride = static_cast<int>(row_length_ / 2);
-      return fftw_plan_many_dft(1, &n, n_modes, as_complex(plane), nullptr, stride, 1, as_complex(plane), nullptr,
-                                stride, 1, sign, effort);
+      return fftw_plan_many_dft(1, &n, n_modes, as_complex(plane), nullptr, stride, 1, as_complex(plane),
+                                nullptr, stride, 1, sign, effort);
     };
     pass.forward_plan.reset(plan(FFTW_FORWARD));
     pass.backward_plan.reset(plan(FFTW_BACKWARD));
@@ -122,8 +132,8 @@ Transform::Pass Transform::plan_plane(int n, Boundary boundary, Parity parity, d
     const Kinds kinds = real_kinds(boundary, parity);
     const auto plan = [&](fftw_r2r_kind kind) {
       const int stride = static_cast<int>(row_length_);
-      return fftw_plan_many_r2r(1, &n, complex_x_ ? 2 * n_modes : n_modes, plane, nullptr, stride, 1, plane, nullptr,
-                                stride, 1, &kind, effort);
+      return fftw_plan_many_r2r(1, &n, complex_x_ ? 2 * n_modes : n_modes, plane, nullptr, stride, 1, plane,
+                                nullptr, stride, 1, &kind, effort);
     };
     pass.forward_plan.reset(plan(kinds.forward));
     pass.backward_plan.reset(plan(kinds.backward));
@@ -138,8 +148,10 @@ void Transform::forward_along_x_and_y(const Field& in) {
     double* modes = layer(k);
     for (int j = 0; j < n_.j; ++j, modes += row_length_, source += n_.i) {
       std::copy_n(source, n_.i, row_.get());
-      if (complex_x_) fftw_execute_dft_r2c(forward_x_.get(), row_.get(), as_complex(modes));
-      else fftw_execute_r2r(forward_x_.get(), row_.get(), modes);
+      if (complex_x_)
+        fftw_execute_dft_r2c(forward_x_.get(), row_.get(), as_complex(modes));
+      else
+        fftw_execute_r2r(forward_x_.get(), row_.get(), modes);
     }
     along_y_.forward(layer(k));
   }
@@ -151,8 +163,10 @@ void Transform::backward_along_x_and_y(Field& out) {
     double* modes = layer(k);
     along_y_.backward(modes);
     for (int j = 0; j < n_.j; ++j, modes += row_length_, target += n_.i) {
-      if (complex_x_) fftw_execute_dft_c2r(backward_x_.get(), as_complex(modes), row_.get());
-      else fftw_execute_r2r(backward_x_.get(), modes, row_.get());
+      if (complex_x_)
+        fftw_execute_dft_c2r(backward_x_.get(), as_complex(modes), row_.get());
+      else
+        fftw_execute_r2r(backward_x_.get(), modes, row_.get());
       std::copy_n(row_.get(), n_.i, target);
     }
   }

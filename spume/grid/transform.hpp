@@ -17,11 +17,11 @@ namespace spume::grid {
 /// Trigonometric transforms of cell-centred fields of one symmetry, with their plans and buffers.
 /// Periodic directions: discrete Fourier transform; walls: DCT-II (even) and DST-II (odd).
 ///
-/// The transform is a product of one-dimensional FFTW plans: x row by row, y in each layer, then, with the slabs
-/// transposed so that y is the distributed direction, z in each plane of constant y. Every plan is made with
-/// FFTW_ESTIMATE, so runs repeat to the last bit (plans that FFTW measures depend on the load of the machine), and sees
-/// the same data on any number of ranks, so results do not depend on that either.
-/// Along periodic x the coefficients are complex, interleaved; y and z then use complex transforms where periodic.
+/// The transform is a product of one-dimensional FFTW plans: x row by row, y in each layer, then, with the
+/// slabs transposed so that y is the distributed direction, z in each plane of constant y. Every plan is made
+/// with FFTW_ESTIMATE, so runs repeat to the last bit (plans that FFTW measures depend on the load of the
+/// machine), and sees the same data on any number of ranks, so results do not depend on that either. Along
+/// periodic x the coefficients are complex, interleaved; y and z then use complex transforms where periodic.
 /// After a real transform along x, periodic y and z use FFTW's half-complex order.
 class Transform {
  public:
@@ -38,8 +38,8 @@ class Transform {
   int mode_z(int row) const { return row % n_.k; }
 
   /// out = backward(factor · forward(in)) without normalisation; `in` and `out` may be the same field.
-  /// `factor_of_row(row)` gives a pointer to the factors of the modes of a row, theta(0).size() of them, valid until
-  /// the next call; it is called for the rows in order. Collective.
+  /// `factor_of_row(row)` gives a pointer to the factors of the modes of a row, theta(0).size() of them,
+  /// valid until the next call; it is called for the rows in order. Collective.
   template <class FactorOfRow>
   void filter(const Field& in, Field& out, FactorOfRow&& factor_of_row) {
     forward_along_x_and_y(in);
@@ -65,7 +65,8 @@ class Transform {
   };
   using Buffer = std::unique_ptr<double[], BufferDeleter>;
 
-  /// Transforms along one direction; y and z in place in a plane of rows, x between a row of values and one of modes.
+  /// Transforms along one direction; y and z in place in a plane of rows, x between a row of values and one
+  /// of modes.
   struct Pass {
     Plan forward_plan, backward_plan;
     bool is_complex = false;  ///< complex to complex, otherwise real to real
@@ -90,11 +91,11 @@ class Transform {
   double* layer(int k) { return buffer_.get() + k * n_.j * row_length_; }
 
   Index3 n_;
-  int n_layers_;                 ///< layers of constant z on this rank
+  int n_layers_;  ///< layers of constant z on this rank
   bool distributed_;
-  bool complex_x_;               ///< two doubles a mode along x
-  std::ptrdiff_t row_length_;    ///< doubles from row to row of modes
-  int y_begin_ = 0, n_planes_;   ///< planes of constant y on this rank
+  bool complex_x_;              ///< two doubles a mode along x
+  std::ptrdiff_t row_length_;   ///< doubles from row to row of modes
+  int y_begin_ = 0, n_planes_;  ///< planes of constant y on this rank
   std::array<std::vector<double>, 3> theta_;
   double normalisation_ = 1;
   Buffer buffer_;  ///< all modes of this rank

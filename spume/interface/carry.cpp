@@ -4,7 +4,8 @@
 
 namespace spume::interface {
 
-void carry(mesh::FilmMesh& films, const grid::VectorField& velocity, const grid::KernelCoupling& kernel, double dt) {
+void carry(mesh::FilmMesh& films, const grid::VectorField& velocity, const grid::KernelCoupling& kernel,
+           double dt) {
   std::vector<Vec3> u;
   kernel.sample(velocity, films.position, u);
   std::vector<Vec3> middle(films.position);

@@ -45,7 +45,9 @@ inline CellBox no_cells() {
   return {{far, far, far}, {-far, -far, -far}};
 }
 
-inline CellBox all_cells(const Index3& cells) { return {{0, 0, 0}, cells}; }
+inline CellBox all_cells(const Index3& cells) {
+  return {{0, 0, 0}, cells};
+}
 
 /// The box with `layers` more cells on every side, as far as the grid goes.
 inline CellBox grown(const CellBox& box, int layers, const Index3& cells) {

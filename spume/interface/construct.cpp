@@ -39,8 +39,8 @@ std::vector<mesh::Phase> winners_of(const grid::Grid& grid, const Potential& pot
   return {whole.begin(), whole.end()};
 }
 
-/// Samples of the functions around the cells that each phase wins, with noise of 1e-7 h, which breaks the exact ties of
-/// symmetric starts.
+/// Samples of the functions around the cells that each phase wins, with noise of 1e-7 h, which breaks the
+/// exact ties of symmetric starts.
 PhasePotentials sample(const grid::Grid& grid, const Potential& potential, int n_phases) {
   constexpr int reach = 6;
   const double noise = 1e-7 * grid.h();
@@ -52,8 +52,10 @@ PhasePotentials sample(const grid::Grid& grid, const Potential& potential, int n
   for (mesh::Phase p = 0; p < n_phases; ++p) {
     if (p > 0 && cells[p].empty()) continue;
     Random random(static_cast<std::uint64_t>(p));
-    PhaseField field{p, p == 0 ? all_cells(grid.cells()) : grown(cells[p], reach, grid.cells()),
-                     -std::numeric_limits<double>::max(), {}};
+    PhaseField field{p,
+                     p == 0 ? all_cells(grid.cells()) : grown(cells[p], reach, grid.cells()),
+                     -std::numeric_limits<double>::max(),
+                     {}};
     field.value.reserve(field.cells.size());
     for_each_cell(field.cells, [&](int i, int j, int k) {
       field.value.push_back(potential(p, grid.centre(i, j, k)) + noise * random.uniform(-0.5, 0.5));
@@ -63,17 +65,27 @@ PhasePotentials sample(const grid::Grid& grid, const Potential& potential, int n
   return potentials;
 }
 
-/// Moves film vertices onto the tie of the functions themselves by Newton's method: linear interpolation between cells
-/// leaves curved films inside. Vertices of borders stay, and those that would move far.
-void project_on_functions(const Potential& potential, const mesh::Topology& topology, double h, int n_functions,
-                          mesh::FilmMesh& films) {
+/// The phase whose function holds for each phase: itself, or for one born by separate_pieces() the one it
+/// came from.
+std::vector<mesh::Phase> functions_of_phases(int n_phases, const std::vector<PhaseChange>& changes) {
+  std::vector<mesh::Phase> function(n_phases);
+  for (mesh::Phase p = 0; p < n_phases; ++p) function[p] = p;
+  for (const PhaseChange& c : changes) function[c.other] = function[c.phase];
+  return function;
+}
+
+/// Moves film vertices onto the tie of the functions themselves by Newton's method: linear interpolation
+/// between cells leaves curved films inside. Vertices of borders stay, and those that would move far.
+void project_on_functions(const Potential& potential, const std::vector<mesh::Phase>& function,
+                          const mesh::Topology& topology, double h, mesh::FilmMesh& films) {
   constexpr int n_iterations = 4;
   const double step = 1e-3 * h;
   for (int v = 0; v < films.n_vertices(); ++v) {
     const mesh::PhaseSet& phases = topology.vertex_phases[v];
-    // Phases born by separate_pieces() have no function.
-    if (phases.size() != 2 || phases[1] >= n_functions) continue;
-    const auto difference = [&](const Vec3& x) { return potential(phases[0], x) - potential(phases[1], x); };
+    if (phases.size() != 2) continue;
+    const auto difference = [&](const Vec3& x) {
+      return potential(function[phases[0]], x) - potential(function[phases[1]], x);
+    };
     Vec3 x = films.position[v];
     for (int n = 0; n < n_iterations; ++n) {
       Vec3 gradient;
@@ -100,7 +112,8 @@ void append(ReconstructReport& report, ReconstructReport&& next) {
 
 Reconstruction construct(const grid::Grid& grid, const Potential& potential, state::Phases& phases,
                          const ReconstructParameters& parameters) {
-  const double h = grid.h(), edge = parameters.smallest_bubble_cells * h, smallest_volume = edge * edge * edge;
+  const double h = grid.h(), edge = parameters.smallest_bubble_cells * h,
+               smallest_volume = edge * edge * edge;
   const int n_functions = phases.count();
   const std::vector<double> wanted = phases.target_volume;
 
@@ -108,7 +121,8 @@ Reconstruction construct(const grid::Grid& grid, const Potential& potential, sta
   ReconstructReport report;
   // All phases count as alive here; their targets are the volumes found.
   FoundFilms found = find_films(start, phases, smallest_volume, report.changes);
-  project_on_functions(potential, found.topology, h, n_functions, found.films);
+  project_on_functions(potential, functions_of_phases(phases.count(), report.changes), found.topology, h,
+                       found.films);
   if (const auto problem = clearance_problem(grid, found.films); !problem.empty()) throw InputError(problem);
   const std::vector<double> volume = mesh::phase_volumes(found.films, phases.count());
   std::copy(volume.begin() + 1, volume.end(), phases.target_volume.begin() + 1);
@@ -127,15 +141,16 @@ Reconstruction construct(const grid::Grid& grid, const Potential& potential, sta
   }
   bool any_wanted = false;
   for (mesh::Phase p = 1; p < n_functions; ++p) {
-    const bool split = std::any_of(result.report.changes.begin(), result.report.changes.end(), [&](const auto& c) {
-      return c.phase == p && c.kind == ReconstructReport::PhaseChange::Kind::Split;
-    });
+    const bool split = std::any_of(
+        result.report.changes.begin(), result.report.changes.end(),
+        [&](const auto& c) { return c.phase == p && c.kind == ReconstructReport::PhaseChange::Kind::Split; });
     if (!(wanted[p] > 0) || !phases.alive(p) || split) continue;
     phases.target_volume[p] = wanted[p];
     any_wanted = true;
   }
   if (any_wanted && parameters.conserve_volumes)
-    result.report.largest_volume_displacement = mesh::restore_volumes(result.films, phases.target_volume, 3, 0.2 * h);
+    result.report.largest_volume_displacement =
+        mesh::restore_volumes(result.films, phases.target_volume, 3, 0.2 * h);
   return result;
 }
 

@@ -15,13 +15,13 @@ namespace {
 constexpr int max_candidates = 24;
 constexpr int max_corners = 4 + max_candidates;
 
-/// The six ways from a cube's lowest to its highest corner, one axis at a time: the Kuhn tetrahedra. The first three are
-/// even permutations, whose tetrahedra are positively oriented.
+/// The six ways from a cube's lowest to its highest corner, one axis at a time: the Kuhn tetrahedra. The
+/// first three are even permutations, whose tetrahedra are positively oriented.
 constexpr std::array<std::array<int, 3>, 6> axis_orders{
     {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
 
-/// A corner of a film's polygon in a tetrahedron, and the side to the next corner: 0 … 3 the face of the tetrahedron
-/// opposite that corner of it, 4 + c the clipping by candidate c.
+/// A corner of a film's polygon in a tetrahedron, and the side to the next corner: 0 … 3 the face of the
+/// tetrahedron opposite that corner of it, 4 + c the clipping by candidate c.
 struct Corner {
   std::array<double, 4> weight;
   int side;
@@ -40,7 +40,8 @@ struct VertexKey {
 struct VertexKeyHash {
   std::size_t operator()(const VertexKey& key) const {
     std::uint64_t hash = key.simplex * 0x9E3779B97F4A7C15ull;
-    for (mesh::Phase p : key.phases) hash = (hash ^ (hash >> 29) ^ static_cast<std::uint64_t>(p + 1)) * 0xBF58476D1CE4E5B9ull;
+    for (mesh::Phase p : key.phases)
+      hash = (hash ^ (hash >> 29) ^ static_cast<std::uint64_t>(p + 1)) * 0xBF58476D1CE4E5B9ull;
     return hash ^ (hash >> 32);
   }
 };
@@ -62,7 +63,7 @@ class FieldBins {
     fields_.resize(static_cast<std::size_t>(n_.i) * n_.j * n_.k);
     for (const auto& field : potentials.fields()) {
       if (field.cells.empty()) continue;
-      const CellBox &c = field.cells;
+      const CellBox& c = field.cells;
       const CellBox blocks{{c.begin.i / edge, c.begin.j / edge, c.begin.k / edge},
                            {(c.end.i - 1) / edge + 1, (c.end.j - 1) / edge + 1, (c.end.k - 1) / edge + 1}};
       for_each_cell(blocks, [&](int i, int j, int k) {
@@ -83,7 +84,10 @@ class FieldBins {
 class Contourer {
  public:
   Contourer(const PhasePotentials& potentials, const std::vector<mesh::Phase>& winner)
-      : potentials_(potentials), winner_(winner), bins_(potentials), whole_(all_cells(potentials.box().cells)) {}
+      : potentials_(potentials),
+        winner_(winner),
+        bins_(potentials),
+        whole_(all_cells(potentials.box().cells)) {}
 
   mesh::FilmMesh run() {
     CellBox cubes = whole_;
@@ -259,7 +263,9 @@ class Contourer {
     while (n > 1 && v[n - 1] == v[0]) --n;
     if (n < 3) return;
     if (polygon.reversed) std::reverse(v.begin(), v.begin() + n);
-    const auto add = [&](int p, int q, int r) { films_.triangle.push_back({{p, q, r}, phase_[a], phase_[b]}); };
+    const auto add = [&](int p, int q, int r) {
+      films_.triangle.push_back({{p, q, r}, phase_[a], phase_[b]});
+    };
     for (; n > 3; --n) {
       int ear = 0;
       double shortest = -1;
@@ -281,14 +287,17 @@ class Contourer {
     mesh::PhaseSet phases{phase_[a], phase_[b]};
     for (int m : {(corner + polygon.n - 1) % polygon.n, corner}) {
       const int side = polygon.corner[m].side;
-      if (side < 4) in_simplex &= ~(1u << side);
-      else phases.insert(phase_[side - 4]);
+      if (side < 4)
+        in_simplex &= ~(1u << side);
+      else
+        phases.insert(phase_[side - 4]);
     }
     const int lowest = std::countr_zero(in_simplex);
     std::uint64_t chain = 0;
     int n_steps = 0;
     for (int c = lowest + 1; c < 4; ++c)
-      if (in_simplex >> c & 1) chain |= static_cast<std::uint64_t>(mask_[c] ^ mask_[lowest]) << (3 * n_steps++);
+      if (in_simplex >> c & 1)
+        chain |= static_cast<std::uint64_t>(mask_[c] ^ mask_[lowest]) << (3 * n_steps++);
     VertexKey key{lattice_point(cube_.i, cube_.j, cube_.k, mask_[lowest]) << 9 | chain, {-1, -1, -1, -1}};
     std::copy(phases.begin(), phases.end(), key.phases.begin());
     const auto [known, is_new] = vertex_of_.try_emplace(key, films_.n_vertices());

@@ -7,18 +7,19 @@
 
 namespace spume::interface {
 
-/// The Voronoi interface of the potentials, linear in each tetrahedron of the Kuhn division of the cubes between cell
-/// centres: the film of phases i and j is {ψ_i = ψ_j}, clipped by ψ_i ≥ ψ_k for every other phase k.
+/// The Voronoi interface of the potentials, linear in each tetrahedron of the Kuhn division of the cubes
+/// between cell centres: the film of phases i and j is {ψ_i = ψ_j}, clipped by ψ_i ≥ ψ_k for every other
+/// phase k.
 ///
-/// The mesh is conforming by construction: a vertex is known by the face of the tetrahedra it lies in (its lowest lattice
-/// point and the chain of steps to the others) and by the phases that meet there, never by where it is. It lies on two
-/// sides of its film's polygon, each of which is either in a face of the tetrahedron or a clipping phase, and these give
-/// that key. Orientation follows from the order of the tetrahedron's corners. Polygons are cut into triangles by their
-/// shortest diagonals.
+/// The mesh is conforming by construction: a vertex is known by the face of the tetrahedra it lies in (its
+/// lowest lattice point and the chain of steps to the others) and by the phases that meet there, never by
+/// where it is. It lies on two sides of its film's polygon, each of which is either in a face of the
+/// tetrahedron or a clipping phase, and these give that key. Orientation follows from the order of the
+/// tetrahedron's corners. Polygons are cut into triangles by their shortest diagonals.
 ///
-/// `winner` is Winners::phase of the potentials. Phases that one winner beats at all corners of a cube are left out; a
-/// phase may win inside a tetrahedron without winning at a corner. Throws NumericalError where more than 24 phases
-/// compete in a cube.
+/// `winner` is Winners::phase of the potentials. Phases that one winner beats at all corners of a cube are
+/// left out; a phase may win inside a tetrahedron without winning at a corner. Throws NumericalError where
+/// more than 24 phases compete in a cube.
 mesh::FilmMesh contour(const PhasePotentials& potentials, const std::vector<mesh::Phase>& winner);
 
 }  // namespace spume::interface

@@ -69,8 +69,8 @@ std::vector<EdgeMidpoints> edge_midpoints(const mesh::FilmMesh& films, const mes
       const int f = (e + 1) % 3;
       const auto& vertex = films.triangle[t].vertex;
       const auto& dof = topology.corner_dof[t];
-      midpoints[t][e] = film_edge_midpoint(films.position[vertex[e]], films.position[vertex[f]], normal[dof[e]],
-                                           normal[dof[f]]);
+      midpoints[t][e] = film_edge_midpoint(films.position[vertex[e]], films.position[vertex[f]],
+                                           normal[dof[e]], normal[dof[f]]);
     }
 
   std::vector<std::vector<Vec3>> tangents;

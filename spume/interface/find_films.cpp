@@ -14,7 +14,8 @@ Winners separated(PhasePotentials& potentials, state::Phases& phases, double sma
                   std::vector<PhaseChange>& changes) {
   constexpr int max_rounds = 4;
   Winners winners = find_winners(potentials);
-  for (int n = 0; n < max_rounds && separate_pieces(potentials, winners, phases, smallest_volume, changes); ++n)
+  for (int n = 0; n < max_rounds && separate_pieces(potentials, winners, phases, smallest_volume, changes);
+       ++n)
     winners = find_winners(potentials);
   return winners;
 }
@@ -61,12 +62,15 @@ FoundFilms find_films(PhasePotentials& potentials, state::Phases& phases, double
   return found;
 }
 
-int project_vertices(const PhasePotentials& potentials, const mesh::Topology& topology, mesh::FilmMesh& films) {
+int project_vertices(const PhasePotentials& potentials, const mesh::Topology& topology,
+                     mesh::FilmMesh& films) {
   int n_refused = 0;
   for (int v = 0; v < films.n_vertices(); ++v) {
     const auto projected = potentials.project(films.position[v], topology.vertex_phases[v]);
-    if (projected) films.position[v] = *projected;
-    else ++n_refused;
+    if (projected)
+      films.position[v] = *projected;
+    else
+      ++n_refused;
   }
   return n_refused;
 }

@@ -16,12 +16,14 @@ struct FoundFilms {
   mesh::Topology topology;
 };
 
-/// Separates pieces, contours, suppresses specks, and gives new phases their target volumes. Where edges do not conform
-/// (exact ties), the potentials near ties are perturbed by 1e-9 h, then 1e-8 h, then 1e-7 h.
+/// Separates pieces, contours, suppresses specks, and gives new phases their target volumes. Where edges do
+/// not conform (exact ties), the potentials near ties are perturbed by 1e-9 h, then 1e-8 h, then 1e-7 h.
 FoundFilms find_films(PhasePotentials& potentials, state::Phases& phases, double smallest_volume,
                       std::vector<PhaseChange>& changes);
 
-/// Puts the vertices onto the tie of their phases by Newton's method; gives the number that stayed where they were.
-int project_vertices(const PhasePotentials& potentials, const mesh::Topology& topology, mesh::FilmMesh& films);
+/// Puts the vertices onto the tie of their phases by Newton's method; gives the number that stayed where they
+/// were.
+int project_vertices(const PhasePotentials& potentials, const mesh::Topology& topology,
+                     mesh::FilmMesh& films);
 
 }  // namespace spume::interface

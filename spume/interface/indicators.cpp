@@ -34,8 +34,8 @@ std::array<Triangle, 4> pieces(const mesh::FilmMesh& films, int t, const EdgeMid
   return {{{a, m[0], m[2]}, {b, m[1], m[0]}, {c, m[2], m[1]}, {m[0], m[1], m[2]}}};
 }
 
-/// Weights of a point along one direction on the five cells around it: of the quadratic B-spline at cell centres, and of
-/// the difference of the cubic B-spline between the two faces of each cell.
+/// Weights of a point along one direction on the five cells around it: of the quadratic B-spline at cell
+/// centres, and of the difference of the cubic B-spline between the two faces of each cell.
 struct LineWeights {
   int first;
   std::array<double, 5> value, difference;
@@ -58,8 +58,13 @@ LineWeights line_weights(double place) {  // in cells from the lower face of the
 class DivergenceSpreader {
  public:
   DivergenceSpreader(const grid::Grid& grid, std::vector<grid::Field>& divergence)
-      : lower_(grid.box().lower), per_h_(1 / grid.h()), per_h4_(std::pow(per_h_, 4)), k_begin_(grid.z_begin()), k_end_(grid.z_end()),
-        stride_y_(grid.cells().i), stride_z_(static_cast<std::ptrdiff_t>(grid.cells().i) * grid.cells().j) {
+      : lower_(grid.box().lower),
+        per_h_(1 / grid.h()),
+        per_h4_(std::pow(per_h_, 4)),
+        k_begin_(grid.z_begin()),
+        k_end_(grid.z_end()),
+        stride_y_(grid.cells().i),
+        stride_z_(static_cast<std::ptrdiff_t>(grid.cells().i) * grid.cells().j) {
     for (auto& field : divergence) data_.push_back(field.values().data());
   }
 

@@ -30,10 +30,12 @@ std::vector<CellRun> find_runs(const Index3& cells, const std::vector<mesh::Phas
   return runs;
 }
 
-/// Distances [cells] from the cells of a window to the nearest cell of some pieces of a phase, cut off at `reach`.
+/// Distances [cells] from the cells of a window to the nearest cell of some pieces of a phase, cut off at
+/// `reach`.
 class PieceDistance {
  public:
-  PieceDistance(const Index3& cells, const std::vector<mesh::Phase>& winner) : whole_(all_cells(cells)), winner_(winner) {
+  PieceDistance(const Index3& cells, const std::vector<mesh::Phase>& winner)
+      : whole_(all_cells(cells)), winner_(winner) {
     for (int k = -reach; k <= reach; ++k)
       for (int j = -reach; j <= reach; ++j)
         for (int i = -reach; i <= reach; ++i) {
@@ -47,8 +49,8 @@ class PieceDistance {
     std::vector<double> distance(window.size(), reach);
     const CellBox sources = grown(window, reach, whole_.end);
     for (const CellRun& run : pieces.run) {
-      if (!accept(run.piece) || run.j < sources.begin.j || run.j >= sources.end.j || run.k < sources.begin.k ||
-          run.k >= sources.end.k)
+      if (!accept(run.piece) || run.j < sources.begin.j || run.j >= sources.end.j ||
+          run.k < sources.begin.k || run.k >= sources.end.k)
         continue;
       for (int i = std::max(run.i_begin, sources.begin.i); i < std::min(run.i_end, sources.end.i); ++i) {
         if (is_interior(i, run.j, run.k, run.phase)) {
@@ -71,8 +73,8 @@ class PieceDistance {
     const auto same = [&](int a, int b, int c) {
       return !whole_.contains(a, b, c) || winner_[whole_.offset(a, b, c)] == phase;
     };
-    return same(i - 1, j, k) && same(i + 1, j, k) && same(i, j - 1, k) && same(i, j + 1, k) && same(i, j, k - 1) &&
-           same(i, j, k + 1);
+    return same(i - 1, j, k) && same(i + 1, j, k) && same(i, j - 1, k) && same(i, j + 1, k) &&
+           same(i, j, k - 1) && same(i, j, k + 1);
   }
   void stamp(int i, int j, int k, const CellBox& window, std::vector<double>& distance) const {
     for (const auto& [step, d] : ball_) {
@@ -117,8 +119,8 @@ PhaseField cut_out(PhaseField& parent, const CellBox& window, const std::vector<
 /// A closed surface of one phase: triangles linked by vertices that they share.
 struct ClosedSurface {
   mesh::Phase phase;
-  double volume = 0;   ///< enclosed; negative around a cavity [m³]
-  Vec3 lower, upper;   ///< bounding box
+  double volume = 0;  ///< enclosed; negative around a cavity [m³]
+  Vec3 lower, upper;  ///< bounding box
 };
 
 std::vector<ClosedSurface> closed_surfaces(const mesh::FilmMesh& films, const mesh::Topology& topology) {
@@ -133,9 +135,12 @@ std::vector<ClosedSurface> closed_surfaces(const mesh::FilmMesh& films, const me
     met.clear();
     for (int n = topology.star_offset[v]; n < topology.star_offset[v + 1]; ++n)
       for (int side : {2 * topology.star_triangle[n], 2 * topology.star_triangle[n] + 1}) {
-        const auto known = std::find_if(met.begin(), met.end(), [&](int m) { return phase_of(m) == phase_of(side); });
-        if (known == met.end()) met.push_back(side);
-        else classes.join(*known, side);
+        const auto known =
+            std::find_if(met.begin(), met.end(), [&](int m) { return phase_of(m) == phase_of(side); });
+        if (known == met.end())
+          met.push_back(side);
+        else
+          classes.join(*known, side);
       }
   }
   std::vector<int> surface_of_side;
@@ -143,7 +148,8 @@ std::vector<ClosedSurface> closed_surfaces(const mesh::FilmMesh& films, const me
   for (int side = 0; side < 2 * films.n_triangles(); ++side) {
     const auto& t = films.triangle[side / 2];
     ClosedSurface& s = surfaces[surface_of_side[side]];
-    const Vec3 &a = films.position[t.vertex[0]], &b = films.position[t.vertex[1]], &c = films.position[t.vertex[2]];
+    const Vec3 &a = films.position[t.vertex[0]], &b = films.position[t.vertex[1]],
+               &c = films.position[t.vertex[2]];
     if (s.phase < 0) s = {phase_of(side), 0, a, a};
     const Vec3 o = films.position.front();  // near, so that round-off stays small
     s.volume += (side % 2 ? -1 : 1) * dot(a - o, cross(b - o, c - o)) / 6;
@@ -260,7 +266,8 @@ int suppress_specks(PhasePotentials& potentials, const Winners& winners, const m
     if (s.phase != 0) largest[s.phase] = std::max(largest[s.phase], s.volume);
   int n_specks = 0;
   for (const auto& s : surfaces) {
-    if (s.volume <= 0 || s.volume >= smallest_volume || (s.phase != 0 && s.volume == largest[s.phase])) continue;
+    if (s.volume <= 0 || s.volume >= smallest_volume || (s.phase != 0 && s.volume == largest[s.phase]))
+      continue;
     ++n_specks;
     CellBox around = no_cells();
     for (const Vec3& corner : {s.lower, s.upper}) {

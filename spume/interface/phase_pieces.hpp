@@ -12,12 +12,12 @@ namespace spume::interface {
 
 using PhaseChange = ReconstructReport::PhaseChange;
 
-/// A connected set of cells of one phase. Cells are linked along the edges of the Kuhn tetrahedra (steps of 0 or 1 along
-/// every axis, all of one sign): that is how the contour links them, because a phase that wins at both ends of an edge
-/// wins all along it.
+/// A connected set of cells of one phase. Cells are linked along the edges of the Kuhn tetrahedra (steps of 0
+/// or 1 along every axis, all of one sign): that is how the contour links them, because a phase that wins at
+/// both ends of an edge wins all along it.
 struct PhasePiece {
   mesh::Phase phase;
-  CellBox cells;        ///< bounding box
+  CellBox cells;  ///< bounding box
   std::size_t n_cells;
 };
 
@@ -29,31 +29,34 @@ struct CellRun {
 };
 
 struct PhasePieces {
-  std::vector<CellRun> run;        ///< in the order of cells
-  std::vector<PhasePiece> piece;   ///< in the order of their first cell
+  std::vector<CellRun> run;       ///< in the order of cells
+  std::vector<PhasePiece> piece;  ///< in the order of their first cell
 };
 
-/// The pieces of all phases; `winner` as of find_winners(). Periodic faces need no care as long as one phase covers the
-/// edge of the box.
+/// The pieces of all phases; `winner` as of find_winners(). Periodic faces need no care as long as one phase
+/// covers the edge of the box.
 PhasePieces find_pieces(const Index3& cells, const std::vector<mesh::Phase>& winner);
 
-/// Makes every phase one piece. The largest piece keeps the phase (of the outside, the piece at the edge of the box).
-/// Another one becomes a new phase when its cells fill at least `smallest_volume` [m³]: a Split of a bubble or a Pocket
-/// of the outside, appended to `phases` with target volume 0 until settle_new_phases(). Smaller ones are Absorbed: their
-/// phase is lowered there so that neighbours win. With d the distances to the pieces, the new phase has
-/// ψ_p − max(0, d_new − d_old) and the old one ψ_p − max(0, d_old − d_new), both unchanged near their own films.
-/// Appends to `changes`; gives whether there was anything to do, in which case the winners have changed.
+/// Makes every phase one piece. The largest piece keeps the phase (of the outside, the piece at the edge of
+/// the box). Another one becomes a new phase when its cells fill at least `smallest_volume` [m³]: a Split of
+/// a bubble or a Pocket of the outside, appended to `phases` with target volume 0 until settle_new_phases().
+/// Smaller ones are Absorbed: their phase is lowered there so that neighbours win. With d the distances to
+/// the pieces, the new phase has ψ_p − max(0, d_new − d_old) and the old one ψ_p − max(0, d_old − d_new),
+/// both unchanged near their own films. Appends to `changes`; gives whether there was anything to do, in
+/// which case the winners have changed.
 bool separate_pieces(PhasePotentials& potentials, const Winners& winners, state::Phases& phases,
                      double smallest_volume, std::vector<PhaseChange>& changes);
 
-/// Gives target volumes to the phases born by changes[first …], from the volumes measured on the mesh: pieces of a bubble
-/// share its target in proportion to their volumes, pockets get what was measured. Volumes in `changes` follow.
+/// Gives target volumes to the phases born by changes[first …], from the volumes measured on the mesh: pieces
+/// of a bubble share its target in proportion to their volumes, pockets get what was measured. Volumes in
+/// `changes` follow.
 void settle_new_phases(const mesh::FilmMesh& films, state::Phases& phases, std::vector<PhaseChange>& changes,
                        std::size_t first);
 
-/// The contour may leave specks of a phase that hold no cell centre. Lowers the phase around every closed surface of a
-/// phase beyond its largest one (of the outside: around every closed surface) that encloses less than
-/// `smallest_volume` [m³], where the phase does not win; gives their number. Contour again if it is not 0.
+/// The contour may leave specks of a phase that hold no cell centre. Lowers the phase around every closed
+/// surface of a phase beyond its largest one (of the outside: around every closed surface) that encloses less
+/// than `smallest_volume` [m³], where the phase does not win; gives their number. Contour again if it is not
+/// 0.
 int suppress_specks(PhasePotentials& potentials, const Winners& winners, const mesh::FilmMesh& films,
                     const mesh::Topology& topology, double smallest_volume);
 

@@ -38,7 +38,9 @@ std::array<double, 4> row(const PhaseField& f, int i, int j, int k) {
   return values;
 }
 
-bool is_near(const Vec3& x, const Vec3& start, double reach) { return norm_squared(x - start) <= reach * reach; }
+bool is_near(const Vec3& x, const Vec3& start, double reach) {
+  return norm_squared(x - start) <= reach * reach;
+}
 
 }  // namespace
 
@@ -46,14 +48,17 @@ void PhasePotentials::set(PhaseField field) {
   expects(field.phase >= 0 && field.value.size() == field.cells.size(), "a field fills its cells");
   const auto place = std::lower_bound(fields_.begin(), fields_.end(), field.phase,
                                       [](const PhaseField& f, mesh::Phase p) { return f.phase < p; });
-  if (place != fields_.end() && place->phase == field.phase) *place = std::move(field);
-  else fields_.insert(place, std::move(field));
+  if (place != fields_.end() && place->phase == field.phase)
+    *place = std::move(field);
+  else
+    fields_.insert(place, std::move(field));
   place_of_phase_.assign(fields_.back().phase + 1, -1);
   for (std::size_t n = 0; n < fields_.size(); ++n) place_of_phase_[fields_[n].phase] = static_cast<int>(n);
 }
 
 const PhaseField* PhasePotentials::find(mesh::Phase phase) const {
-  if (phase < 0 || phase >= static_cast<int>(place_of_phase_.size()) || place_of_phase_[phase] < 0) return nullptr;
+  if (phase < 0 || phase >= static_cast<int>(place_of_phase_.size()) || place_of_phase_[phase] < 0)
+    return nullptr;
   return &fields_[place_of_phase_[phase]];
 }
 PhaseField* PhasePotentials::find(mesh::Phase phase) {
@@ -67,7 +72,8 @@ void PhasePotentials::raise(mesh::Phase phase, double amount) {
   for (double& value : field->value) value += amount;
 }
 
-double PhasePotentials::difference(const PhaseField& a, const PhaseField& b, const Vec3& x, Vec3& gradient) const {
+double PhasePotentials::difference(const PhaseField& a, const PhaseField& b, const Vec3& x,
+                                   Vec3& gradient) const {
   const double per_h = 1 / h();
   const Vec3 place = per_h * (x - box_.lower) - Vec3{0.5, 0.5, 0.5};
   const int i = static_cast<int>(std::floor(place.x)), j = static_cast<int>(std::floor(place.y)),
@@ -79,7 +85,8 @@ double PhasePotentials::difference(const PhaseField& a, const PhaseField& b, con
   for (int c = 0; c < 4; ++c) {
     double plane = 0, plane_x = 0, plane_y = 0;
     for (int m = 0; m < 4; ++m) {
-      const std::array<double, 4> va = row(a, i - 1, j - 1 + m, k - 1 + c), vb = row(b, i - 1, j - 1 + m, k - 1 + c);
+      const std::array<double, 4> va = row(a, i - 1, j - 1 + m, k - 1 + c),
+                                  vb = row(b, i - 1, j - 1 + m, k - 1 + c);
       double line = 0, line_x = 0;
       for (int n = 0; n < 4; ++n) {
         const double v = va[n] - vb[n];
@@ -110,7 +117,8 @@ std::optional<Vec3> PhasePotentials::project(const Vec3& x, const mesh::PhaseSet
   return std::nullopt;
 }
 
-std::optional<Vec3> PhasePotentials::project_on_film(const Vec3& start, const PhaseField* const* field) const {
+std::optional<Vec3> PhasePotentials::project_on_film(const Vec3& start,
+                                                     const PhaseField* const* field) const {
   constexpr int n_iterations = 5;
   constexpr double reach = 0.5, smallest_gradient = 0.2, converged = 1e-10;  // lengths in h
   Vec3 x = start, g;
@@ -126,7 +134,8 @@ std::optional<Vec3> PhasePotentials::project_on_film(const Vec3& start, const Ph
   return x;
 }
 
-std::optional<Vec3> PhasePotentials::project_on_border(const Vec3& start, const PhaseField* const* field) const {
+std::optional<Vec3> PhasePotentials::project_on_border(const Vec3& start,
+                                                       const PhaseField* const* field) const {
   constexpr int n_iterations = 6;
   constexpr double reach = 0.8, smallest_gradient = 0.2, smallest_sine_squared = 0.02, converged = 1e-10;
   Vec3 x = start, g1, g2;
@@ -142,7 +151,8 @@ std::optional<Vec3> PhasePotentials::project_on_border(const Vec3& start, const 
   return x;
 }
 
-std::optional<Vec3> PhasePotentials::project_on_junction(const Vec3& start, const PhaseField* const* field) const {
+std::optional<Vec3> PhasePotentials::project_on_junction(const Vec3& start,
+                                                         const PhaseField* const* field) const {
   constexpr int n_iterations = 8;
   constexpr double reach = 1.2, smallest_volume = 0.05, converged = 1e-10;
   Vec3 x = start;
@@ -151,7 +161,8 @@ std::optional<Vec3> PhasePotentials::project_on_junction(const Vec3& start, cons
     std::array<double, 3> s;
     for (int m = 0; m < 3; ++m) s[m] = difference(*field[0], *field[m + 1], x, g[m]);
     const double determinant = dot(g[0], cross(g[1], g[2]));
-    if (!(std::abs(determinant) > smallest_volume * norm(g[0]) * norm(g[1]) * norm(g[2]))) return std::nullopt;
+    if (!(std::abs(determinant) > smallest_volume * norm(g[0]) * norm(g[1]) * norm(g[2])))
+      return std::nullopt;
     const Vec3 move =
         (s[0] * cross(g[1], g[2]) + s[1] * cross(g[2], g[0]) + s[2] * cross(g[0], g[1])) / determinant;
     x -= move;
@@ -177,8 +188,9 @@ PhasePotentials potentials_of(const grid::Box& box, const PhaseColours& colours,
     PhaseField field{static_cast<mesh::Phase>(p), colours.cells[p], map.distance(0), {}};
     field.value.reserve(field.cells.size());
     const auto& c = indicator[colours.colour[p]];
-    for_each_cell(field.cells,
-                  [&](int i, int j, int k) { field.value.push_back(map.distance(c[whole.offset(i, j, k)])); });
+    for_each_cell(field.cells, [&](int i, int j, int k) {
+      field.value.push_back(map.distance(c[whole.offset(i, j, k)]));
+    });
     potentials.set(std::move(field));
   }
   return potentials;
@@ -186,18 +198,18 @@ PhasePotentials potentials_of(const grid::Box& box, const PhaseColours& colours,
 
 Winners find_winners(const PhasePotentials& potentials) {
   const CellBox whole = all_cells(potentials.box().cells);
-  double lowest = 0;
-  for (const auto& field : potentials.fields()) lowest = std::min(lowest, field.beyond);
   constexpr double none = -std::numeric_limits<double>::max();
+  double lowest = 0;
   Winners w{std::vector<mesh::Phase>(whole.size(), 0), std::vector<double>(whole.size(), none),
-            std::vector<double>(whole.size(), lowest)};
+            std::vector<double>(whole.size(), none)};
   for (const auto& field : potentials.fields()) {
+    lowest = std::min(lowest, field.beyond);
     std::size_t n = 0;
     for_each_cell(field.cells, [&](int i, int j, int k) {
       const double value = field.value[n++];
       const std::size_t cell = whole.offset(i, j, k);
       if (value > w.first[cell]) {
-        if (w.first[cell] != none) w.second[cell] = std::max(w.second[cell], w.first[cell]);
+        w.second[cell] = w.first[cell];
         w.first[cell] = value;
         w.phase[cell] = field.phase;
       } else {
@@ -205,6 +217,7 @@ Winners find_winners(const PhasePotentials& potentials) {
       }
     });
   }
+  std::replace(w.second.begin(), w.second.end(), none, lowest);
   return w;
 }
 

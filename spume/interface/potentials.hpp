@@ -12,19 +12,22 @@
 
 namespace spume::interface {
 
-/// ψ of one phase [m] at the centres of a block of cells; outside the block the phase is no candidate, and where an
-/// interpolation reaches beyond it ψ is `beyond`.
+/// ψ of one phase [m] at the centres of a block of cells; outside the block the phase is no candidate, and
+/// where an interpolation reaches beyond it ψ is `beyond`.
 struct PhaseField {
   mesh::Phase phase;
   CellBox cells;
   double beyond;
   std::vector<double> value;
 
-  double at(int i, int j, int k) const { return cells.contains(i, j, k) ? value[cells.offset(i, j, k)] : beyond; }
+  double at(int i, int j, int k) const {
+    return cells.contains(i, j, k) ? value[cells.offset(i, j, k)] : beyond;
+  }
 };
 
-/// The linearised potentials ψ_i of all phases, the same on every rank. The phase of a point is that of the largest ψ;
-/// films are where the two largest are equal. Near a film of phases i and j, ½(ψ_i − ψ_j) is the signed distance.
+/// The linearised potentials ψ_i of all phases, the same on every rank. The phase of a point is that of the
+/// largest ψ; films are where the two largest are equal. Near a film of phases i and j, ½(ψ_i − ψ_j) is the
+/// signed distance.
 class PhasePotentials {
  public:
   explicit PhasePotentials(const grid::Box& box) : box_(box) {}
@@ -44,9 +47,9 @@ class PhasePotentials {
   /// ½(ψ_a − ψ_b) at a point by tricubic (Lagrange) interpolation [m], and its gradient [−].
   double difference(const PhaseField& a, const PhaseField& b, const Vec3& x, Vec3& gradient) const;
 
-  /// Newton's method from x onto ψ_i = ψ_j of the given phases: along the gradient for two phases (film), by the
-  /// shortest way for three (border), to the point for four or more (junction; the first four decide). Nothing where
-  /// gradients are degenerate or the move would be longer than 0.5, 0.8 or 1.2 h.
+  /// Newton's method from x onto ψ_i = ψ_j of the given phases: along the gradient for two phases (film), by
+  /// the shortest way for three (border), to the point for four or more (junction; the first four decide).
+  /// Nothing where gradients are degenerate or the move would be longer than 0.5, 0.8 or 1.2 h.
   std::optional<Vec3> project(const Vec3& x, const mesh::PhaseSet& phases) const;
 
  private:
@@ -59,12 +62,13 @@ class PhasePotentials {
   std::vector<int> place_of_phase_;  ///< in fields_; −1: none
 };
 
-/// Potentials from smoothed indicators by the profile of a flat film; ψ of the outside from 1 − Σ of all the others.
-/// `indicator` as of smoothed_indicators(); `variance` [m²] and `floor` as of FlatFilmMap.
+/// Potentials from smoothed indicators by the profile of a flat film; ψ of the outside from 1 − Σ of all the
+/// others. `indicator` as of smoothed_indicators(); `variance` [m²] and `floor` as of FlatFilmMap.
 PhasePotentials potentials_of(const grid::Box& box, const PhaseColours& colours,
                               std::span<const std::vector<double>> indicator, double variance, double floor);
 
-/// At every cell: the phase with the largest ψ (the lowest of equals), the two largest ψ [m].
+/// At every cell: the phase with the largest ψ (the lowest of equals), and the two largest ψ [m]; where there
+/// is but one candidate the second is the lowest `beyond`.
 struct Winners {
   std::vector<mesh::Phase> phase;
   std::vector<double> first, second;

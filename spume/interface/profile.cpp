@@ -31,7 +31,9 @@ double bisect(double low, double high, Function&& is_low) {
 
 }  // namespace
 
-double smoothing_kernel(double z) { return std::exp(-z) * (1 + z + 0.5 * z * z); }
+double smoothing_kernel(double z) {
+  return std::exp(-z) * (1 + z + 0.5 * z * z);
+}
 
 double flat_film_profile(double x, double variance) {
   const double u = x * x / variance;
@@ -39,11 +41,13 @@ double flat_film_profile(double x, double variance) {
 }
 
 FlatFilmMap::FlatFilmMap(double variance, double floor) : variance_(variance) {
-  expects(variance > 0 && floor > 0 && floor < 1, "the profile needs a positive variance and a floor between 0 and 1");
+  expects(variance > 0 && floor > 0 && floor < 1,
+          "the profile needs a positive variance and a floor between 0 and 1");
   // The slope falls monotonically from its maximum at 0 to its first zero at u = 5 − √10.
   const double first_zero = std::sqrt(variance * (5 - std::sqrt(10.0)));
   const double steepest = profile_slope(0, variance);
-  last_distance_ = bisect(0, first_zero, [&](double x) { return profile_slope(x, variance) > floor * steepest; });
+  last_distance_ =
+      bisect(0, first_zero, [&](double x) { return profile_slope(x, variance) > floor * steepest; });
   last_value_ = flat_film_profile(last_distance_, variance);
   last_slope_ = profile_slope(last_distance_, variance);
   constexpr int n_steps = 256;

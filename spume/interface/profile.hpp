@@ -4,19 +4,22 @@
 
 namespace spume::interface {
 
-/// The smoothing kernel in Fourier space as a function of z = s k²/2, s its variance [m²]: T(z) = e^{−z}(1 + z + z²/2).
-/// Its second and fourth moments in space vanish; over the tangent plane of a film its second moment does not, so
-/// smoothing moves a curved film as curvature flow over the "time" s/10 does (see step_in_advance.hpp).
+/// The smoothing kernel in Fourier space as a function of z = s k²/2, s its variance [m²]: T(z) = e^{−z}(1 +
+/// z + z²/2). Its second and fourth moments in space vanish; over the tangent plane of a film its second
+/// moment does not, so smoothing moves a curved film as curvature flow over the "time" s/10 does (see
+/// step_in_advance.hpp).
 double smoothing_kernel(double z);
 
-/// c − ½ across a flat film, where the smoothed indicator of the phase at x > 0 is c(x) [−]. With u = x²/s and G the
-/// Gaussian of variance s, the kernel above integrated over the plane is K = (u² − 10u + 15) G/8, and its primitive
+/// c − ½ across a flat film, where the smoothed indicator of the phase at x > 0 is c(x) [−]. With u = x²/s
+/// and G the Gaussian of variance s, the kernel above integrated over the plane is K = (u² − 10u + 15) G/8,
+/// and its primitive
 ///   F(x) = ½ erf(x/√(2s)) + x G (7 − u)/8.
 double flat_film_profile(double x, double variance);
 
-/// The inverse of the profile: the map from a smoothed indicator to a distance. It makes a flat film's indicator a signed
-/// distance, while order and equality of indicators stay what they are. The profile is continued linearly where its
-/// slope has fallen below `floor` × its maximum, so that the map is defined for all c.
+/// The inverse of the profile: the map from a smoothed indicator to a distance. It makes a flat film's
+/// indicator a signed distance, while order and equality of indicators stay what they are. The profile is
+/// continued linearly where its slope has fallen below `floor` × its maximum, so that the map is defined for
+/// all c.
 class FlatFilmMap {
  public:
   FlatFilmMap(double variance, double floor);
@@ -26,7 +29,7 @@ class FlatFilmMap {
  private:
   double variance_;
   double last_distance_, last_value_, last_slope_;  ///< where the linear continuation starts
-  std::vector<double> table_;                       ///< distances at equal steps of c − ½ up to last_value_
+  std::vector<double> table_;  ///< distances at equal steps of c − ½ up to last_value_
 };
 
 }  // namespace spume::interface

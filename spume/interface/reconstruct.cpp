@@ -35,8 +35,8 @@ PhasePotentials potentials_from(const grid::Grid& grid, mesh::FilmMesh films, in
   return potentials_of(grid.box(), colours, indicators, variance, parameters.profile_floor);
 }
 
-/// Bubbles that smoothing has left with too few cells to be made whole again. A ball of the smallest volume keeps 0.47 of
-/// it; only flat or long ones fall below a quarter.
+/// Bubbles that smoothing has left with too few cells to be made whole again. A ball of the smallest volume
+/// keeps 0.47 of it; only flat or long ones fall below a quarter.
 std::vector<mesh::Phase> unresolved_bubbles(const PhasePotentials& potentials, const state::Phases& phases,
                                             double smallest_volume) {
   const double h = potentials.h();
@@ -65,7 +65,8 @@ PhasePotentials potentials_of_resolved(const grid::Grid& grid, mesh::FilmMesh& f
 
 Reconstruction reconstruct(const grid::Grid& grid, const mesh::FilmMesh& films, state::Phases& phases,
                            const ReconstructParameters& parameters) {
-  const double h = grid.h(), edge = parameters.smallest_bubble_cells * h, smallest_volume = edge * edge * edge;
+  const double h = grid.h(), edge = parameters.smallest_bubble_cells * h,
+               smallest_volume = edge * edge * edge;
   require_clearance(grid, films);
   ReconstructReport report;
   mesh::FilmMesh resolved = films;

@@ -8,7 +8,9 @@ namespace spume::interface {
 
 namespace {
 
-bool is_film(const mesh::Topology& topology, int v) { return topology.vertex_kind[v] == mesh::VertexKind::Film; }
+bool is_film(const mesh::Topology& topology, int v) {
+  return topology.vertex_kind[v] == mesh::VertexKind::Film;
+}
 
 /// Mean of linearly interpolated displacements over the star of each vertex, by area.
 std::vector<Vec3> star_means(const mesh::FilmMesh& films, const std::vector<Vec3>& displacement) {

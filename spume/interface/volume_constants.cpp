@@ -31,13 +31,16 @@ void raise_to_volumes(PhasePotentials& potentials, const mesh::FilmMesh& films, 
   const std::vector<double> volume = mesh::phase_volumes(films, n);
   Eigen::VectorXd missing = Eigen::VectorXd::Zero(n);
   for (mesh::Phase p = 0; p < n; ++p) {
-    if (is_free(p)) missing[p] = phases.target_volume[p] - volume[p];
-    else entries.emplace_back(p, p, largest * largest);  // an area of ordinary size, for a regular matrix
+    if (is_free(p))
+      missing[p] = phases.target_volume[p] - volume[p];
+    else
+      entries.emplace_back(p, p, largest * largest);  // an area of ordinary size, for a regular matrix
   }
   Eigen::SparseMatrix<double> laplacian(n, n);
   laplacian.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(laplacian);
-  if (solver.info() != Eigen::Success) throw NumericalError("the volume constants of the phases have no solution");
+  if (solver.info() != Eigen::Success)
+    throw NumericalError("the volume constants of the phases have no solution");
   const Eigen::VectorXd constant = solver.solve(missing);
   for (mesh::Phase p = 1; p < n; ++p)
     if (is_free(p) && potentials.find(p)) potentials.raise(p, std::clamp(constant[p], -largest, largest));

@@ -19,7 +19,8 @@ constexpr const char* state_file = "state.h5";
 constexpr std::array velocity_names{"gas/velocity_x", "gas/velocity_y", "gas/velocity_z"};
 constexpr const char* pressure_name = "gas/pressure";
 
-// The mesh as flat arrays ----------------------------------------------------------------------------------------
+// The mesh as flat arrays
+// ----------------------------------------------------------------------------------------
 
 std::vector<double> flat(const std::vector<Vec3>& points) {
   std::vector<double> values;
@@ -31,14 +32,16 @@ std::vector<double> flat(const std::vector<Vec3>& points) {
 std::vector<int> flat(const std::vector<mesh::FilmTriangle>& triangles) {
   std::vector<int> values;
   values.reserve(5 * triangles.size());
-  for (const auto& t : triangles) values.insert(values.end(), {t.vertex[0], t.vertex[1], t.vertex[2], t.phase_a, t.phase_b});
+  for (const auto& t : triangles)
+    values.insert(values.end(), {t.vertex[0], t.vertex[1], t.vertex[2], t.phase_a, t.phase_b});
   return values;
 }
 
 std::vector<Vec3> points_of(const std::vector<double>& values) {
   std::vector<Vec3> points;
   points.reserve(values.size() / 3);
-  for (std::size_t n = 0; n + 2 < values.size(); n += 3) points.push_back({values[n], values[n + 1], values[n + 2]});
+  for (std::size_t n = 0; n + 2 < values.size(); n += 3)
+    points.push_back({values[n], values[n + 1], values[n + 2]});
   return points;
 }
 
@@ -50,12 +53,15 @@ std::vector<mesh::FilmTriangle> triangles_of(const std::vector<int>& values) {
   return triangles;
 }
 
-// Writing --------------------------------------------------------------------------------------------------------
+// Writing
+// --------------------------------------------------------------------------------------------------------
 
 void write_list(const Hdf5File& file, const std::string& name, const std::vector<double>& values) {
   file.write(name, values, {values.size()});
 }
-void write_number(const Hdf5File& file, const std::string& name, double value) { file.write(name, std::span(&value, 1), {}); }
+void write_number(const Hdf5File& file, const std::string& name, double value) {
+  file.write(name, std::span(&value, 1), {});
+}
 
 void write_films_and_liquid(const Hdf5File& file, const state::Foam& foam) {
   const auto& [position, triangle] = foam.films;
@@ -80,7 +86,8 @@ void write_grid(const Hdf5File& file, const grid::Box& box) {
 
 void write_extras(const Hdf5File& file, const CheckpointExtras& extras) {
   const auto check_name = [](const std::string& name) {
-    expects(!name.empty() && name.find('/') == std::string::npos, "a name in a checkpoint is not empty and has no '/'");
+    expects(!name.empty() && name.find('/') == std::string::npos,
+            "a name in a checkpoint is not empty and has no '/'");
   };
   file.create_group("extras");
   file.create_group("extras/numbers");
@@ -108,7 +115,8 @@ void write_state(const std::filesystem::path& path, const state::Foam& foam, con
   const grid::Box& box = foam.gas.pressure.grid().box();
   write_grid(file, box);
   write_films_and_liquid(file, foam);
-  const std::vector<std::size_t> shape{static_cast<std::size_t>(box.cells.k), static_cast<std::size_t>(box.cells.j),
+  const std::vector<std::size_t> shape{static_cast<std::size_t>(box.cells.k),
+                                       static_cast<std::size_t>(box.cells.j),
                                        static_cast<std::size_t>(box.cells.i)};
   for (int axis = 0; axis < 3; ++axis) file.write(velocity_names[axis], gas.velocity[axis], shape);
   file.write(pressure_name, gas.pressure, shape);
@@ -116,21 +124,24 @@ void write_state(const std::filesystem::path& path, const state::Foam& foam, con
   file.close();
 }
 
-// Reading --------------------------------------------------------------------------------------------------------
+// Reading
+// --------------------------------------------------------------------------------------------------------
 
 void check_fits(const Hdf5File& file, const grid::Box& box) {
   const int format = file.read_int("format").at(0);
   if (format != format_version)
-    throw InputError(fmt::format("checkpoint: written in format {}, this program reads {}", format, format_version));
+    throw InputError(
+        fmt::format("checkpoint: written in format {}, this program reads {}", format, format_version));
   const auto n = file.read_int("grid/cells");
   if (n != std::vector<int>{box.cells.i, box.cells.j, box.cells.k})
-    throw InputError(fmt::format("checkpoint: it has {} × {} × {} cells, the case {} × {} × {}", n.at(0), n.at(1), n.at(2),
-                                 box.cells.i, box.cells.j, box.cells.k));
+    throw InputError(fmt::format("checkpoint: it has {} × {} × {} cells, the case {} × {} × {}", n.at(0),
+                                 n.at(1), n.at(2), box.cells.i, box.cells.j, box.cells.k));
   if (file.read("grid/lower") != flat({box.lower}) || file.read("grid/upper") != flat({box.upper}))
     throw InputError("checkpoint: its box is not the box of the case");
 }
 
-/// All that is in the file, as flat arrays; `numbers` first and in this order, so that one loop sends it to all ranks.
+/// All that is in the file, as flat arrays; `numbers` first and in this order, so that one loop sends it to
+/// all ranks.
 struct Contents {
   std::vector<double> scalars;  ///< time, sprayed
   std::vector<double> position, target_volume, lamella_volume, border_volume, area_at_transfer;
@@ -140,9 +151,9 @@ struct Contents {
   std::string extra_names;  ///< one a line, numbers then lists
 
   std::vector<std::vector<double>*> arrays() {
-    return {&scalars,         &position,        &target_volume,      &lamella_volume,    &border_volume,
-            &area_at_transfer, &triangle,        &is_young,           &gas.velocity[0],   &gas.velocity[1],
-            &gas.velocity[2], &gas.pressure,    &extra_numbers,      &extra_list_lengths, &extra_list_values};
+    return {&scalars,          &position,     &target_volume, &lamella_volume,     &border_volume,
+            &area_at_transfer, &triangle,     &is_young,      &gas.velocity[0],    &gas.velocity[1],
+            &gas.velocity[2],  &gas.pressure, &extra_numbers, &extra_list_lengths, &extra_list_values};
   }
 };
 
@@ -222,7 +233,8 @@ CheckpointExtras unpack_extras(const Contents& contents) {
 
 }  // namespace
 
-void save_checkpoint(const std::filesystem::path& folder, const state::Foam& foam, const CheckpointExtras& extras) {
+void save_checkpoint(const std::filesystem::path& folder, const state::Foam& foam,
+                     const CheckpointExtras& extras) {
   WholeGas gas;
   for (int axis = 0; axis < 3; ++axis) gas.velocity[axis] = grid::gather(foam.gas.velocity[axis]);
   gas.pressure = grid::gather(foam.gas.pressure);
@@ -245,6 +257,8 @@ CheckpointExtras load_checkpoint(const std::filesystem::path& folder, state::Foa
   return unpack_extras(contents);
 }
 
-bool has_checkpoint(const std::filesystem::path& folder) { return CheckpointFolders(folder).complete().has_value(); }
+bool has_checkpoint(const std::filesystem::path& folder) {
+  return CheckpointFolders(folder).complete().has_value();
+}
 
 }  // namespace spume::io

@@ -11,7 +11,9 @@ namespace {
 
 constexpr const char* marker = "complete";
 
-bool is_complete(const std::filesystem::path& checkpoint) { return std::filesystem::exists(checkpoint / marker); }
+bool is_complete(const std::filesystem::path& checkpoint) {
+  return std::filesystem::exists(checkpoint / marker);
+}
 
 void discard(const std::filesystem::path& checkpoint) {
   if (std::filesystem::remove(checkpoint / marker)) put_on_disk(checkpoint);
@@ -26,10 +28,7 @@ void mark_complete(const std::filesystem::path& checkpoint) {
 }  // namespace
 
 CheckpointFolders::CheckpointFolders(const std::filesystem::path& folder)
-    : folder_(folder),
-      current_(folder / "checkpoint"),
-      new_(folder / "checkpoint.new"),
-      old_(folder / "checkpoint.old") {}
+    : current_(folder / "checkpoint"), new_(folder / "checkpoint.new"), old_(folder / "checkpoint.old") {}
 
 std::optional<std::filesystem::path> CheckpointFolders::complete() const {
   for (const auto& candidate : {new_, current_, old_})

@@ -6,9 +6,9 @@
 
 namespace spume::io {
 
-/// The folders of a checkpoint and the order in which they are written, renamed and removed. A checkpoint is a folder
-/// with a marker file, written last and removed first; at every instant after the first checkpoint one of checkpoint/,
-/// checkpoint.new/, checkpoint.old/ has the marker and is whole. For one rank.
+/// The folders of a checkpoint and the order in which they are written, renamed and removed. A checkpoint is
+/// a folder with a marker file, written last and removed first; at every instant after the first checkpoint
+/// one of checkpoint/, checkpoint.new/, checkpoint.old/ has the marker and is whole. For one rank.
 class CheckpointFolders {
  public:
   explicit CheckpointFolders(const std::filesystem::path& folder);
@@ -20,7 +20,7 @@ class CheckpointFolders {
   void replace(const std::function<void(const std::filesystem::path&)>& write) const;
 
  private:
-  std::filesystem::path folder_, current_, new_, old_;
+  std::filesystem::path current_, new_, old_;
 };
 
 }  // namespace spume::io

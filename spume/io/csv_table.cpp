@@ -45,16 +45,19 @@ std::string text_of(const CsvValue& value) {
 /// Bytes of the header and the first `rows` rows.
 std::uintmax_t length_of(const std::filesystem::path& path, const std::string& header, long rows) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(fmt::format("{}: cannot be read, but the checkpoint refers to it", path.string()));
+  if (!file)
+    throw InputError(fmt::format("{}: cannot be read, but the checkpoint refers to it", path.string()));
   std::string line;
   std::getline(file, line);
   if (line + '\n' != header)
-    throw InputError(fmt::format("{}: the first line is not '{}'", path.string(), header.substr(0, header.size() - 1)));
+    throw InputError(
+        fmt::format("{}: the first line is not '{}'", path.string(), header.substr(0, header.size() - 1)));
   std::uintmax_t length = header.size();
   for (long row = 0; row < rows; ++row) {
     // A last line without line end was cut short by a kill.
     if (!std::getline(file, line) || file.eof())
-      throw InputError(fmt::format("{}: has {} rows, but the checkpoint refers to {}", path.string(), row, rows));
+      throw InputError(
+          fmt::format("{}: has {} rows, but the checkpoint refers to {}", path.string(), row, rows));
     length += line.size() + 1;
   }
   return length;
@@ -79,7 +82,8 @@ CsvTable::CsvTable(const std::filesystem::path& path, std::span<const Column> co
 
 void CsvTable::open(const char* mode) {
   file_.reset(std::fopen(path_.c_str(), mode));
-  if (!file_) throw std::runtime_error(fmt::format("{}: cannot write: {}", path_.string(), std::strerror(errno)));
+  if (!file_)
+    throw std::runtime_error(fmt::format("{}: cannot write: {}", path_.string(), std::strerror(errno)));
 }
 
 void CsvTable::write(const std::string& line) {
@@ -97,6 +101,8 @@ void CsvTable::append(const std::vector<CsvValue>& row) {
   write(line + '\n');
 }
 
-void CsvTable::put_on_disk() { io::put_on_disk(path_); }
+void CsvTable::put_on_disk() {
+  io::put_on_disk(path_);
+}
 
 }  // namespace spume::io

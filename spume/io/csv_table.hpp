@@ -15,14 +15,15 @@ namespace spume::io {
 /// An entry of a table. Numbers are written with the fewest digits that read back to the same bits.
 using CsvValue = std::variant<long, double, std::string>;
 
-/// A growing table of comma-separated values with one header line. Each row reaches the system as soon as it is
-/// appended, so that a kill of the program loses none. For one rank.
+/// A growing table of comma-separated values with one header line. Each row reaches the system as soon as it
+/// is appended, so that a kill of the program loses none. For one rank.
 class CsvTable {
  public:
-  /// Starts a new file with its header; one that exists is overwritten. Throws std::runtime_error when it cannot be written.
+  /// Starts a new file with its header; one that exists is overwritten. Throws std::runtime_error when it
+  /// cannot be written.
   CsvTable(const std::filesystem::path& path, std::span<const Column> columns);
-  /// Goes on with a file of which only the first `rows` rows count; what follows them (also a row cut short by a kill) is
-  /// cut off. Throws InputError when the file is missing, has another header or fewer rows.
+  /// Goes on with a file of which only the first `rows` rows count; what follows them (also a row cut short
+  /// by a kill) is cut off. Throws InputError when the file is missing, has another header or fewer rows.
   CsvTable(const std::filesystem::path& path, std::span<const Column> columns, long rows);
 
   /// `row` has one value a column. Text with commas or quotes is quoted; line ends in it become spaces.

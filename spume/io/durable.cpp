@@ -17,14 +17,18 @@ void put_on_disk(const std::filesystem::path& path) {
   const bool failed = file < 0 || (::fsync(file) != 0 && errno != EINVAL);
   const int reason = errno;
   if (file >= 0) ::close(file);
-  if (failed) throw std::runtime_error(fmt::format("{}: cannot put on the disk: {}", path.string(), std::strerror(reason)));
+  if (failed)
+    throw std::runtime_error(
+        fmt::format("{}: cannot put on the disk: {}", path.string(), std::strerror(reason)));
 }
 
 void replace_durably(const std::filesystem::path& from, const std::filesystem::path& to) {
   put_on_disk(from);
   std::error_code error;
   std::filesystem::rename(from, to, error);
-  if (error) throw std::runtime_error(fmt::format("{}: cannot rename to {}: {}", from.string(), to.string(), error.message()));
+  if (error)
+    throw std::runtime_error(
+        fmt::format("{}: cannot rename to {}: {}", from.string(), to.string(), error.message()));
   put_on_disk(to.parent_path().empty() ? std::filesystem::path(".") : to.parent_path());
 }
 

@@ -9,8 +9,9 @@ namespace spume::io {
 /// Throws std::runtime_error when the system refuses.
 void put_on_disk(const std::filesystem::path& path);
 
-/// Puts `from` onto the disk and renames it to `to`, which it replaces: a reader, and a restart after a crash at any
-/// instant, finds either the old file or the new one, whole. Throws std::runtime_error when the system refuses.
+/// Puts `from` onto the disk and renames it to `to`, which it replaces: a reader, and a restart after a crash
+/// at any instant, finds either the old file or the new one, whole. Throws std::runtime_error when the system
+/// refuses.
 void replace_durably(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Writes a text file by replace_durably().

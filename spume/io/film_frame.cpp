@@ -32,8 +32,8 @@ state::FilmFrame film_frame(const mesh::FilmMesh& films, const mesh::Topology& t
   frame.border_area = border_area(films, topology, liquid);
   for (const auto& dof : topology.film_dof) frame.film_point.push_back(films.position[dof.vertex]);
   for (int t = 0; t < films.n_triangles(); ++t)
-    frame.triangle.push_back(
-        {topology.corner_dof[t], topology.triangle_lamella[t], films.triangle[t].phase_a, films.triangle[t].phase_b});
+    frame.triangle.push_back({topology.corner_dof[t], topology.triangle_lamella[t], films.triangle[t].phase_a,
+                              films.triangle[t].phase_b});
 
   std::map<std::pair<int, int>, int> dof_at;  // of (border, vertex)
   for (std::size_t d = 0; d < topology.border_dof.size(); ++d) {

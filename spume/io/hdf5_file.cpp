@@ -33,7 +33,9 @@ class Handle {
 };
 
 /// HDF5 would print its own trace for each failure; ours become exceptions.
-void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+void be_quiet() {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 herr_t add_name(hid_t, const char* name, const H5L_info_t*, void* names) {
   static_cast<std::vector<std::string>*>(names)->emplace_back(name);
@@ -65,7 +67,8 @@ Hdf5File::~Hdf5File() {
   if (id_ >= 0) H5Fclose(id_);
 }
 
-Hdf5File::Hdf5File(Hdf5File&& other) noexcept : path_(std::move(other.path_)), id_(std::exchange(other.id_, -1)) {}
+Hdf5File::Hdf5File(Hdf5File&& other) noexcept
+    : path_(std::move(other.path_)), id_(std::exchange(other.id_, -1)) {}
 
 void Hdf5File::close() {
   checked(H5Fflush(id_, H5F_SCOPE_GLOBAL), "flush the file");
@@ -77,8 +80,8 @@ void Hdf5File::create_group(const std::string& name) const {
   checked(group.get(), "create " + name);
 }
 
-void Hdf5File::write(const std::string& name, const void* values, std::size_t n, const std::vector<std::size_t>& shape,
-                     Id type) const {
+void Hdf5File::write(const std::string& name, const void* values, std::size_t n,
+                     const std::vector<std::size_t>& shape, Id type) const {
   expects(std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>()) == n,
           "the shape of an array has as many entries as the array");
   const std::vector<hsize_t> lengths(shape.begin(), shape.end());
@@ -86,7 +89,8 @@ void Hdf5File::write(const std::string& name, const void* values, std::size_t n,
   checked(H5Pset_create_intermediate_group(links.get(), 1), "create " + name);
   const Handle space(H5Screate_simple(static_cast<int>(lengths.size()), lengths.data(), nullptr), H5Sclose);
   checked(space.get(), "create " + name);
-  const Handle set(H5Dcreate2(id_, name.c_str(), type, space.get(), links.get(), H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  const Handle set(H5Dcreate2(id_, name.c_str(), type, space.get(), links.get(), H5P_DEFAULT, H5P_DEFAULT),
+                   H5Dclose);
   checked(set.get(), "create " + name);
   checked(H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write " + name);
 }
@@ -106,18 +110,24 @@ std::vector<Value> Hdf5File::read_as(const std::string& name, Id type) const {
   const Handle set(H5Dopen2(id_, name.c_str(), H5P_DEFAULT), H5Dclose);
   checked(set.get(), "find " + name);
   const Handle space(H5Dget_space(set.get()), H5Sclose);
-  std::vector<Value> values(static_cast<std::size_t>(checked(H5Sget_simple_extent_npoints(space.get()), "measure " + name)));
+  std::vector<Value> values(
+      static_cast<std::size_t>(checked(H5Sget_simple_extent_npoints(space.get()), "measure " + name)));
   checked(H5Dread(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "read " + name);
   return values;
 }
 
-std::vector<double> Hdf5File::read(const std::string& name) const { return read_as<double>(name, H5T_NATIVE_DOUBLE); }
+std::vector<double> Hdf5File::read(const std::string& name) const {
+  return read_as<double>(name, H5T_NATIVE_DOUBLE);
+}
 
-std::vector<int> Hdf5File::read_int(const std::string& name) const { return read_as<int>(name, H5T_NATIVE_INT); }
+std::vector<int> Hdf5File::read_int(const std::string& name) const {
+  return read_as<int>(name, H5T_NATIVE_INT);
+}
 
 std::vector<std::string> Hdf5File::names(const std::string& group) const {
   std::vector<std::string> found;
-  checked(H5Literate_by_name(id_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add_name, &found, H5P_DEFAULT),
+  checked(H5Literate_by_name(id_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add_name, &found,
+                             H5P_DEFAULT),
           "list " + group);
   return found;
 }

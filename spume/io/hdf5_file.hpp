@@ -8,8 +8,9 @@
 
 namespace spume::io {
 
-/// One HDF5 file of numeric arrays, on one rank. Groups in a name ("films/position") come into being as needed.
-/// Numbers keep their bits. Every function throws std::runtime_error, with the path and the name, when it fails.
+/// One HDF5 file of numeric arrays, on one rank. Groups in a name ("films/position") come into being as
+/// needed. Numbers keep their bits. Every function throws std::runtime_error, with the path and the name,
+/// when it fails.
 class Hdf5File {
  public:
   static Hdf5File create(const std::filesystem::path& path);
@@ -19,8 +20,10 @@ class Hdf5File {
   Hdf5File(const Hdf5File&) = delete;
 
   /// `shape`: lengths of the dimensions, the last one fastest; their product is the number of values.
-  void write(const std::string& name, std::span<const double> values, const std::vector<std::size_t>& shape) const;
-  void write(const std::string& name, std::span<const int> values, const std::vector<std::size_t>& shape) const;
+  void write(const std::string& name, std::span<const double> values,
+             const std::vector<std::size_t>& shape) const;
+  void write(const std::string& name, std::span<const int> values,
+             const std::vector<std::size_t>& shape) const;
   std::vector<double> read(const std::string& name) const;
   std::vector<int> read_int(const std::string& name) const;
   /// Names inside a group, in alphabetic order.
@@ -34,8 +37,8 @@ class Hdf5File {
   using Id = std::int64_t;
   Hdf5File(std::filesystem::path path, Id id) : path_(std::move(path)), id_(id) {}
   Id checked(Id result, const std::string& what) const;
-  void write(const std::string& name, const void* values, std::size_t n, const std::vector<std::size_t>& shape,
-             Id type) const;
+  void write(const std::string& name, const void* values, std::size_t n,
+             const std::vector<std::size_t>& shape, Id type) const;
   template <class Value>
   std::vector<Value> read_as(const std::string& name, Id type) const;
 

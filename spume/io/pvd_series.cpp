@@ -24,12 +24,15 @@ std::string_view attribute(std::string_view line, std::string_view key) {
 
 }  // namespace
 
-PvdSeries::PvdSeries(std::filesystem::path path) : path_(std::move(path)) { write(); }
+PvdSeries::PvdSeries(std::filesystem::path path) : path_(std::move(path)) {
+  write();
+}
 
-PvdSeries::PvdSeries(std::filesystem::path path, int n_frames) : path_(std::move(path)), frames_(read_pvd(path_)) {
+PvdSeries::PvdSeries(std::filesystem::path path, int n_frames)
+    : path_(std::move(path)), frames_(read_pvd(path_)) {
   if (static_cast<int>(frames_.size()) < n_frames)
-    throw InputError(
-        fmt::format("{}: has {} frames, but the checkpoint refers to {}", path_.string(), frames_.size(), n_frames));
+    throw InputError(fmt::format("{}: has {} frames, but the checkpoint refers to {}", path_.string(),
+                                 frames_.size(), n_frames));
   frames_.resize(n_frames);
   write();
 }
@@ -41,7 +44,8 @@ void PvdSeries::append(double time, const std::string& file) {
 
 void PvdSeries::write() const {
   std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n";
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  "
+      "<Collection>\n";
   for (const Frame& frame : frames_)
     text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time, frame.file);
   write_text_durably(path_, text + "  </Collection>\n</VTKFile>\n");

@@ -6,8 +6,8 @@
 
 namespace spume::io {
 
-/// A ParaView collection: the frames of a series of VTK files and their times. The file is replaced whole at each new
-/// frame, so that it is valid at any instant. For one rank.
+/// A ParaView collection: the frames of a series of VTK files and their times. The file is replaced whole at
+/// each new frame, so that it is valid at any instant. For one rank.
 class PvdSeries {
  public:
   struct Frame {

@@ -13,12 +13,13 @@ namespace {
 
 /// Where a row of cell centres goes through a film.
 struct Crossing {
-  double x;                     ///< [m]
-  mesh::Phase before, behind;   ///< going up x
+  double x;                    ///< [m]
+  mesh::Phase before, behind;  ///< going up x
 };
 
-/// How often the edge a→b, projected along x, passes the point (y, z) on its right: +1 upwards, −1 downwards. The two
-/// triangles of an edge get opposite numbers from the same arithmetic, so the counts of a closed surface cancel exactly.
+/// How often the edge a→b, projected along x, passes the point (y, z) on its right: +1 upwards, −1 downwards.
+/// The two triangles of an edge get opposite numbers from the same arithmetic, so the counts of a closed
+/// surface cancel exactly.
 int passes(Vec3 a, Vec3 b, int index_a, int index_b, double y, double z) {
   const bool a_above = a.z > z, b_above = b.z > z;
   if (a_above == b_above) return 0;
@@ -48,10 +49,11 @@ Range cells_between(double low, double high, double lower, double h, int n, int 
           std::min(n, static_cast<int>(std::floor(nearest(high))) + 1 + more)};
 }
 
-Range cells_around(const mesh::FilmMesh& films, const mesh::FilmTriangle& t, const grid::Box& box, int axis, int more) {
+Range cells_around(const mesh::FilmMesh& films, const mesh::FilmTriangle& t, const grid::Box& box, int axis,
+                   int more) {
   const auto at = [&](int corner) { return films.position[t.vertex[corner]][axis]; };
-  return cells_between(std::min({at(0), at(1), at(2)}), std::max({at(0), at(1), at(2)}), box.lower[axis], box.spacing(),
-                       box.cells[axis], more);
+  return cells_between(std::min({at(0), at(1), at(2)}), std::max({at(0), at(1), at(2)}), box.lower[axis],
+                       box.spacing(), box.cells[axis], more);
 }
 
 std::vector<std::vector<Crossing>> find_crossings(const mesh::FilmMesh& films, const grid::Box& box) {
@@ -113,7 +115,12 @@ namespace {
 class NearestTriangles {
  public:
   NearestTriangles(const mesh::FilmMesh& films, const grid::Box& box, double largest_value)
-      : films_(films), box_(box), n_(box.cells), h_(box.spacing()), nearest_(total(), -1), distance_(total(), largest_value) {}
+      : films_(films),
+        box_(box),
+        n_(box.cells),
+        h_(box.spacing()),
+        nearest_(total(), -1),
+        distance_(total(), largest_value) {}
 
   void try_triangle(int i, int j, int k, int triangle) {
     const std::size_t c = cell(i, j, k);
@@ -121,8 +128,8 @@ class NearestTriangles {
     const Vec3 x = box_.lower + h_ * Vec3{i + 0.5, j + 0.5, k + 0.5};
     const auto& v = films_.triangle[triangle].vertex;
     std::array<double, 3> weight;
-    const double d = std::sqrt(
-        mesh::closest_point_on_triangle(x, films_.position[v[0]], films_.position[v[1]], films_.position[v[2]], weight));
+    const double d = std::sqrt(mesh::closest_point_on_triangle(
+        x, films_.position[v[0]], films_.position[v[1]], films_.position[v[2]], weight));
     if (nearest_[c] >= 0 && d >= distance_[c]) return;
     nearest_[c] = triangle;
     distance_[c] = d;
@@ -158,7 +165,8 @@ class NearestTriangles {
 
 }  // namespace
 
-std::vector<double> rasterize_distance(const mesh::FilmMesh& films, const grid::Box& box, double largest_value) {
+std::vector<double> rasterize_distance(const mesh::FilmMesh& films, const grid::Box& box,
+                                       double largest_value) {
   NearestTriangles nearest(films, box, largest_value);
   for (int t = 0; t < films.n_triangles(); ++t) {
     const auto& triangle = films.triangle[t];

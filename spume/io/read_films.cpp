@@ -34,8 +34,8 @@ Vec3 point_of(vtkPolyData& data, vtkIdType p) {
   return {x[0], x[1], x[2]};
 }
 
-/// Film points come first; they are those with a half-thickness that some triangle uses, so their number is one more
-/// than the largest index in a triangle.
+/// Film points come first; they are those with a half-thickness that some triangle uses, so their number is
+/// one more than the largest index in a triangle.
 vtkIdType count_film_points(vtkPolyData& data) {
   vtkIdType n = 0;
   vtkNew<vtkIdList> points;
@@ -46,7 +46,8 @@ vtkIdType count_film_points(vtkPolyData& data) {
   return n;
 }
 
-void read_points(vtkPolyData& data, vtkIdType n_film_points, const std::string& path, state::FilmFrame& frame) {
+void read_points(vtkPolyData& data, vtkIdType n_film_points, const std::string& path,
+                 state::FilmFrame& frame) {
   vtkDataArray& eta = array_of(data.GetPointData(), arrays::half_thickness, path);
   vtkDataArray& lambda = array_of(data.GetPointData(), arrays::border_area, path);
   for (vtkIdType p = 0; p < data.GetNumberOfPoints(); ++p) {
@@ -60,7 +61,8 @@ void read_points(vtkPolyData& data, vtkIdType n_film_points, const std::string& 
   }
 }
 
-void read_cells(vtkPolyData& data, vtkIdType n_film_points, const std::string& path, state::FilmFrame& frame) {
+void read_cells(vtkPolyData& data, vtkIdType n_film_points, const std::string& path,
+                state::FilmFrame& frame) {
   vtkNew<vtkIdList> points;
   const vtkIdType n_lines = data.GetLines()->GetNumberOfCells();
   for (vtkIdType c = 0; c < n_lines; ++c) {
@@ -81,19 +83,22 @@ void read_cells(vtkPolyData& data, vtkIdType n_film_points, const std::string& p
     data.GetPolys()->GetCellAtId(c, points);
     if (points->GetNumberOfIds() != 3) throw InputError(path + ": holds polygons that are not triangles");
     const auto at = [&](int corner) { return static_cast<int>(points->GetId(corner)); };
-    frame.triangle.push_back({{at(0), at(1), at(2)}, value(lamella, c), value(phase_a, c), value(phase_b, c)});
+    frame.triangle.push_back(
+        {{at(0), at(1), at(2)}, value(lamella, c), value(phase_a, c), value(phase_b, c)});
   }
 }
 
 }  // namespace
 
 state::FilmFrame read_films(const std::filesystem::path& path) {
-  if (!std::filesystem::is_regular_file(path)) throw InputError(fmt::format("{}: no such file", path.string()));
+  if (!std::filesystem::is_regular_file(path))
+    throw InputError(fmt::format("{}: no such file", path.string()));
   // Errors of VTK are counted here; without this it prints them.
   bool failed = false;
   vtkNew<vtkCallbackCommand> on_error;
   on_error->SetClientData(&failed);
-  on_error->SetCallback([](vtkObject*, unsigned long, void* flag, void*) { *static_cast<bool*>(flag) = true; });
+  on_error->SetCallback(
+      [](vtkObject*, unsigned long, void* flag, void*) { *static_cast<bool*>(flag) = true; });
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetReaderErrorObserver(on_error);
   reader->SetParserErrorObserver(on_error);

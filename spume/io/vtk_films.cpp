@@ -83,7 +83,9 @@ void add_cells(const state::FilmFrame& frame, vtkPolyData& data) {
 
 }  // namespace
 
-std::span<const Column> film_arrays() { return arrays::all; }
+std::span<const Column> film_arrays() {
+  return arrays::all;
+}
 
 void write_films(const state::FilmFrame& frame, const std::filesystem::path& path) {
   vtkNew<vtkPolyData> data;

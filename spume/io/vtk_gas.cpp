@@ -21,8 +21,9 @@ namespace {
 
 constexpr std::array<Column, 4> columns{{
     {"velocity", "cell data: velocity of the gas [m/s]"},
-    {"pressure", "cell data: pressure of the gas [Pa] without the part that is constant in each bubble, which is "
-                 "pressure_Pa of bubbles.csv"},
+    {"pressure",
+     "cell data: pressure of the gas [Pa] without the part that is constant in each bubble, which is "
+     "pressure_Pa of bubbles.csv"},
     {"phase", "cell data: the phase that holds the centre of the cell; 0 is the outside"},
     {"distance", "cell data: distance from the centre of the cell to the nearest film [m]"},
 }};
@@ -31,7 +32,8 @@ constexpr Column velocity = columns[0], pressure = columns[1], phase = columns[2
 template <class Array, class Value>
 void add(vtkImageData& image, const Column& column, const std::vector<Value>& values) {
   if (values.empty()) return;
-  expects(static_cast<vtkIdType>(values.size()) == image.GetNumberOfCells(), "one value for each cell of the box");
+  expects(static_cast<vtkIdType>(values.size()) == image.GetNumberOfCells(),
+          "one value for each cell of the box");
   vtkNew<Array> array;
   array->SetName(column.name.data());
   array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
@@ -47,7 +49,8 @@ void add_velocity(vtkImageData& image, const std::array<std::vector<double>, 3>&
   array->SetNumberOfComponents(3);
   array->SetNumberOfTuples(image.GetNumberOfCells());
   for (int axis = 0; axis < 3; ++axis) {
-    expects(static_cast<vtkIdType>(u[axis].size()) == image.GetNumberOfCells(), "one value for each cell of the box");
+    expects(static_cast<vtkIdType>(u[axis].size()) == image.GetNumberOfCells(),
+            "one value for each cell of the box");
     for (std::size_t c = 0; c < u[axis].size(); ++c)
       array->SetTypedComponent(static_cast<vtkIdType>(c), axis, static_cast<float>(u[axis][c]));
   }
@@ -56,7 +59,9 @@ void add_velocity(vtkImageData& image, const std::array<std::vector<double>, 3>&
 
 }  // namespace
 
-std::span<const Column> gas_arrays() { return columns; }
+std::span<const Column> gas_arrays() {
+  return columns;
+}
 
 void write_gas(const GasFrame& frame, const grid::Box& box, const std::filesystem::path& path) {
   vtkNew<vtkImageData> image;

@@ -30,15 +30,22 @@ double Communicator::sum(double value) const {
   return value;
 }
 
-double Communicator::max(double value) const { return all_reduce(value, MPI_MAX, comm_); }
+double Communicator::max(double value) const {
+  return all_reduce(value, MPI_MAX, comm_);
+}
 
-double Communicator::min(double value) const { return all_reduce(value, MPI_MIN, comm_); }
+double Communicator::min(double value) const {
+  return all_reduce(value, MPI_MIN, comm_);
+}
 
-bool Communicator::any(bool value) const { return max(value ? 1.0 : 0.0) > 0; }
+bool Communicator::any(bool value) const {
+  return max(value ? 1.0 : 0.0) > 0;
+}
 
 void Communicator::sum(std::span<double> values) const {
   if (size_ == 1) return;
-  // MPI does not promise that MPI_Allreduce gives every rank the same last bit; one reducer and a broadcast do.
+  // MPI does not promise that MPI_Allreduce gives every rank the same last bit; one reducer and a broadcast
+  // do.
   const int n = message_count(values.size());
   MPI_Reduce(is_root() ? MPI_IN_PLACE : values.data(), values.data(), n, MPI_DOUBLE, MPI_SUM, 0, comm_);
   MPI_Bcast(values.data(), n, MPI_DOUBLE, 0, comm_);
@@ -55,7 +62,9 @@ void Communicator::broadcast(std::string& text, int root) const {
   MPI_Bcast(text.data(), length, MPI_CHAR, root, comm_);
 }
 
-void Communicator::barrier() const { MPI_Barrier(comm_); }
+void Communicator::barrier() const {
+  MPI_Barrier(comm_);
+}
 
 void Communicator::rethrow_together(Failure failure, std::string message) const {
   int first = failure == Failure::None ? size_ : rank_;

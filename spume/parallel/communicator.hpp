@@ -33,11 +33,13 @@ class Communicator {
   void barrier() const;
 
   /// Runs `work` on rank 0 only; an exception there is thrown on every rank with the same type and message
-  /// (InputError, NumericalError, Interrupted, or std::runtime_error for every other), so that all ranks fail together.
+  /// (InputError, NumericalError, Interrupted, or std::runtime_error for every other), so that all ranks fail
+  /// together.
   template <class Work>
   void on_root(Work&& work) const;
-  /// Runs `work` on every rank; a failure of one becomes a failure of all, with the type and message of the lowest rank
-  /// that failed. A rank must not fail between collective calls inside `work`: the others would wait for it for ever.
+  /// Runs `work` on every rank; a failure of one becomes a failure of all, with the type and message of the
+  /// lowest rank that failed. A rank must not fail between collective calls inside `work`: the others would
+  /// wait for it for ever.
   template <class Work>
   void together(Work&& work) const;
 

@@ -28,7 +28,8 @@ std::string frame_name(const std::string& series, int frame, const std::string& 
 }
 
 /// Makes the folder of a series, and removes frames that do not count any more and halves of frames.
-void prepare_frames(const fs::path& folder, const std::string& series, const std::string& ending, int n_frames) {
+void prepare_frames(const fs::path& folder, const std::string& series, const std::string& ending,
+                    int n_frames) {
   fs::create_directories(folder / series);
   std::vector<fs::path> stale;
   for (const auto& entry : fs::directory_iterator(folder / series)) {
@@ -55,7 +56,8 @@ struct Files {
     if (gas) gas_frames.emplace(series(folder / "gas.pvd", mark.gas_frames, resumed && mark.gas_frames > 0));
   }
 
-  static io::CsvTable table(const fs::path& path, std::span<const io::Column> columns, long rows, bool resumed) {
+  static io::CsvTable table(const fs::path& path, std::span<const io::Column> columns, long rows,
+                            bool resumed) {
     return resumed ? io::CsvTable(path, columns, rows) : io::CsvTable(path, columns);
   }
   static io::PvdSeries series(const fs::path& path, int n_frames, bool resumed) {
@@ -72,7 +74,9 @@ struct Files {
 
 /// The gas as the case wants to see it, whole on every rank. Collective.
 io::GasFrame gather_gas(const state::Foam& foam, const std::vector<std::string>& fields, bool is_root) {
-  const auto wanted = [&](const char* field) { return std::find(fields.begin(), fields.end(), field) != fields.end(); };
+  const auto wanted = [&](const char* field) {
+    return std::find(fields.begin(), fields.end(), field) != fields.end();
+  };
   const grid::Box& box = foam.gas.pressure.grid().box();
   io::GasFrame frame;
   frame.time = foam.time;
@@ -80,7 +84,8 @@ io::GasFrame gather_gas(const state::Foam& foam, const std::vector<std::string>&
     for (int axis = 0; axis < 3; ++axis) frame.velocity[axis] = grid::gather(foam.gas.velocity[axis]);
   if (wanted("pressure")) frame.pressure = grid::gather(foam.gas.pressure);
   if (is_root && wanted("phase")) frame.phase = io::rasterize_phases(foam.films, foam.phases.count(), box);
-  if (is_root && wanted("distance")) frame.distance = io::rasterize_distance(foam.films, box, norm(box.size()));
+  if (is_root && wanted("distance"))
+    frame.distance = io::rasterize_distance(foam.films, box, norm(box.size()));
   return frame;
 }
 
@@ -90,8 +95,8 @@ struct Diary::Implementation {
   parallel::Communicator communicator;
   fs::path folder;
   OutputParameters output;
-  DiaryMark mark;               ///< the same on every rank
-  std::optional<Files> files;   ///< on rank 0
+  DiaryMark mark;              ///< the same on every rank
+  std::optional<Files> files;  ///< on rank 0
 
   void append(io::CsvTable Files::*table, const std::vector<Row>& rows) {
     for (const Row& row : rows) ((*files).*table).append(row);
@@ -127,7 +132,8 @@ void Diary::record_event(const state::Event& event) {
   ++self.mark.event_rows;
 }
 
-void Diary::record_frame(const state::Foam& foam, const mesh::Topology& topology, const std::vector<double>& pressure) {
+void Diary::record_frame(const state::Foam& foam, const mesh::Topology& topology,
+                         const std::vector<double>& pressure) {
   auto& self = *implementation_;
   DiaryMark& mark = self.mark;
   self.communicator.on_root([&] {

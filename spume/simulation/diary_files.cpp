@@ -22,7 +22,8 @@ constexpr std::array<Column, 16> history{{
     {"kinetic_energy_J", "of the gas"},
     {"lamella_liquid_m3", "liquid in the lamellae"},
     {"border_liquid_m3", "liquid in the Plateau borders"},
-    {"liquid_error_rel", "(liquid in lamellae and borders + sprayed so far - liquid at the first row) / liquid at the first row"},
+    {"liquid_error_rel",
+     "(liquid in lamellae and borders + sprayed so far - liquid at the first row) / liquid at the first row"},
     {"min_half_thickness_m", "thinnest point of the lamellae (half-thickness) that counts"},
     {"bubbles", "number of bubbles; the outside is not one"},
     {"lamellae", "number of lamellae (connected films between two phases)"},
@@ -56,7 +57,8 @@ constexpr std::array<Column, 8> lamellae{{
     {"area_m2", "area of the lamella"},
     {"liquid_m3", "liquid in it"},
     {"min_half_thickness_m", "smallest half-thickness on it"},
-    {"mean_curvature_1_m", "mean of k1 + k2 over its inside, positive where phase_b bulges out; nan where it has no inside vertex"},
+    {"mean_curvature_1_m",
+     "mean of k1 + k2 over its inside, positive where phase_b bulges out; nan where it has no inside vertex"},
 }};
 
 constexpr std::array<Column, 9> borders{{
@@ -85,11 +87,21 @@ std::string explain(const std::string& file, const std::string& what, std::span<
 
 }  // namespace
 
-std::span<const Column> history_columns() { return history; }
-std::span<const Column> bubble_columns() { return bubbles; }
-std::span<const Column> lamella_columns() { return lamellae; }
-std::span<const Column> border_columns() { return borders; }
-std::span<const Column> event_columns() { return events; }
+std::span<const Column> history_columns() {
+  return history;
+}
+std::span<const Column> bubble_columns() {
+  return bubbles;
+}
+std::span<const Column> lamella_columns() {
+  return lamellae;
+}
+std::span<const Column> border_columns() {
+  return borders;
+}
+std::span<const Column> event_columns() {
+  return events;
+}
 
 std::string explain_output() {
   return "What the files of this folder hold. All quantities are in SI units.\n\n" +
@@ -100,11 +112,12 @@ std::string explain_output() {
          explain("borders.csv", "One row a Plateau border at every frame.", borders) +
          explain("events.csv", "One row for everything that happened to the foam.", events) +
          explain("films.pvd, films/films_NNNNNN.vtp",
-                 "The films at every frame, for ParaView: lamellae as triangles, Plateau borders as poly-lines. Points are\n"
+                 "The films at every frame, for ParaView: lamellae as triangles, Plateau borders as "
+                 "poly-lines. Points are\n"
                  "  separate where lamellae meet. Entries without meaning hold nan or -1.",
                  io::film_arrays()) +
-         explain("gas.pvd, gas/gas_NNNNNN.vti", "The gas at every frame, where the case asks for it (output.gas).",
-                 io::gas_arrays()) +
+         explain("gas.pvd, gas/gas_NNNNNN.vti",
+                 "The gas at every frame, where the case asks for it (output.gas).", io::gas_arrays()) +
          explain("checkpoint/", "The complete state, from which 'spume resume' goes on.", {}) +
          explain("log.txt", "What the program said.", {});
 }

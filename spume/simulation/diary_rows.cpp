@@ -85,7 +85,8 @@ std::vector<PhaseShape> phase_shapes(const mesh::FilmMesh& films, int n_phases) 
           lowest[p][axis] = std::min(lowest[p][axis], films.position[v][axis]);
           highest[p][axis] = std::max(highest[p][axis], films.position[v][axis]);
         }
-  // ∫ x dV over the tetrahedra from the middle of the phase to its triangles; outward of phase_a, inward of phase_b.
+  // ∫ x dV over the tetrahedra from the middle of the phase to its triangles; outward of phase_a, inward of
+  // phase_b.
   std::vector<Vec3> moment(n_phases);
   std::vector<double> volume(n_phases, 0.0);
   for (const auto& t : films.triangle)
@@ -145,8 +146,8 @@ std::vector<Row> bubble_rows(const state::Foam& foam, const mesh::Topology& topo
   for (int p = 1; p < n_phases; ++p) {
     if (!foam.phases.alive(p)) continue;
     const auto& [x, extent] = shapes[p];
-    rows.push_back({foam.time, p, volume[p], foam.phases.target_volume[p], area[p], pressure.at(p), x.x, x.y, x.z,
-                    extent.x, extent.y, extent.z, faces[p]});
+    rows.push_back({foam.time, p, volume[p], foam.phases.target_volume[p], area[p], pressure.at(p), x.x, x.y,
+                    x.z, extent.x, extent.y, extent.z, faces[p]});
   }
   return rows;
 }
@@ -158,8 +159,8 @@ std::vector<Row> lamella_rows(const state::Foam& foam, const mesh::Topology& top
   const auto curvature = mean_curvatures(foam.films, topology);
   std::vector<Row> rows;
   for (int l = 0; l < topology.n_lamellae(); ++l)
-    rows.push_back({foam.time, l, topology.lamella[l].phase_a, topology.lamella[l].phase_b, area[l], liquid[l],
-                    thinnest[l], curvature[l]});
+    rows.push_back({foam.time, l, topology.lamella[l].phase_a, topology.lamella[l].phase_b, area[l],
+                    liquid[l], thinnest[l], curvature[l]});
   return rows;
 }
 
@@ -177,7 +178,8 @@ std::vector<Row> border_rows(const state::Foam& foam, const mesh::Topology& topo
   std::vector<Row> rows;
   for (int b = 0; b < n; ++b) {
     const auto& phases = topology.border[b].phases;
-    rows.push_back({foam.time, b, phases[0], phases[1], phases[2], length[b], liquid[b], smallest[b], largest[b]});
+    rows.push_back(
+        {foam.time, b, phases[0], phases[1], phases[2], length[b], liquid[b], smallest[b], largest[b]});
   }
   return rows;
 }

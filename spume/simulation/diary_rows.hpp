@@ -21,15 +21,17 @@ std::vector<Row> bubble_rows(const state::Foam& foam, const mesh::Topology& topo
 std::vector<Row> lamella_rows(const state::Foam& foam, const mesh::Topology& topology);
 std::vector<Row> border_rows(const state::Foam& foam, const mesh::Topology& topology);
 
-/// Smallest half-thickness of each lamella [m]. Film dofs with less than 5 % of the mean dof area of their lamella do
-/// not count: slivers of a mesh have volumes that round-off and transfer decide.
+/// Smallest half-thickness of each lamella [m]. Film dofs with less than 5 % of the mean dof area of their
+/// lamella do not count: slivers of a mesh have volumes that round-off and transfer decide.
 std::vector<double> min_half_thickness(const state::Foam& foam, const mesh::Topology& topology);
 
-/// Mean of κ = k₁ + k₂ over each lamella [1/m], from the area gradient −∂A/∂x_v = κ A_v n_v at the vertices inside it;
-/// n from phase_a into phase_b, so κ > 0 where phase_b bulges out. NaN where a lamella has no vertex inside.
+/// Mean of κ = k₁ + k₂ over each lamella [1/m], from the area gradient −∂A/∂x_v = κ A_v n_v at the vertices
+/// inside it; n from phase_a into phase_b, so κ > 0 where phase_b bulges out. NaN where a lamella has no
+/// vertex inside.
 std::vector<double> mean_curvatures(const mesh::FilmMesh& films, const mesh::Topology& topology);
 
-/// Centre of volume and lengths of the bounding box of each phase [m], indexed by phase; of no meaning for the outside.
+/// Centre of volume and lengths of the bounding box of each phase [m], indexed by phase; of no meaning for
+/// the outside.
 struct PhaseShape {
   Vec3 centroid, extent;
 };

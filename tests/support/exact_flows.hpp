@@ -16,10 +16,11 @@ struct ExactFlow {
   std::function<double(const Vec3& x, double t)> pressure;  ///< of mean zero over its period
 };
 
-/// Taylor–Green vortices of wave number k in the plane across `axis`, decaying with exp(−2νk²t) and carried by `mean`:
-/// with a, b the coordinates of the plane in cyclic order,
+/// Taylor–Green vortices of wave number k in the plane across `axis`, decaying with exp(−2νk²t) and carried
+/// by `mean`: with a, b the coordinates of the plane in cyclic order,
 ///   u_a = U sin ka cos kb,  u_b = −U cos ka sin kb,  p = ¼ρU² (cos 2ka + cos 2kb).
-inline ExactFlow taylor_green(int axis, double k, double speed, double nu, double rho, const Vec3& mean = {}) {
+inline ExactFlow taylor_green(int axis, double k, double speed, double nu, double rho,
+                              const Vec3& mean = {}) {
   const int a = (axis + 1) % 3, b = (axis + 2) % 3;
   return {[=](const Vec3& x, double t) {
             const Vec3 y = x - t * mean;
@@ -36,8 +37,9 @@ inline ExactFlow taylor_green(int axis, double k, double speed, double nu, doubl
           }};
 }
 
-/// The Arnold–Beltrami–Childress flow with equal coefficients, in which every component varies along two directions,
-/// decaying with exp(−νk²t) and carried by `mean`. Its vorticity is k times its velocity, so p = −½ρ|u|² + const.
+/// The Arnold–Beltrami–Childress flow with equal coefficients, in which every component varies along two
+/// directions, decaying with exp(−νk²t) and carried by `mean`. Its vorticity is k times its velocity, so p =
+/// −½ρ|u|² + const.
 inline ExactFlow beltrami(double k, double speed, double nu, double rho, const Vec3& mean = {}) {
   const auto swirl = [=](const Vec3& x, double t) {
     const Vec3 y = k * (x - t * mean);

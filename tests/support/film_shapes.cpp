@@ -1,5 +1,6 @@
 #include "tests/support/film_shapes.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -7,6 +8,7 @@
 #include <numbers>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "spume/base/contract.hpp"
 

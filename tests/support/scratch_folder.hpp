@@ -16,9 +16,9 @@ class ScratchFolder {
  public:
   ScratchFolder() : communicator_(parallel::Communicator::world()) {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() /
-            ("spume_" + std::string(test->test_suite_name()) + "_" + test->name() + "_" +
-             std::to_string(communicator_.size()));
+    path_ =
+        std::filesystem::temp_directory_path() / ("spume_" + std::string(test->test_suite_name()) + "_" +
+                                                  test->name() + "_" + std::to_string(communicator_.size()));
     communicator_.on_root([&] {
       std::filesystem::remove_all(path_);
       std::filesystem::create_directories(path_);

@@ -25,15 +25,15 @@ TEST(Assess, gives_the_numbers_of_a_bubble) {
   EXPECT_DOUBLE_EQ(a.smallest_diameter, 3e-3);
   EXPECT_NEAR(a.laplace_number, 2 * 0.03 * 1.2 * 3e-3 / (1.8e-5 * 1.8e-5), 1e-9 * a.laplace_number);
   EXPECT_NEAR(a.step_limits.front().dt, 0.8 * std::sqrt(1.2 * std::pow(0.25e-3, 3) / 0.06), 1e-12);
-  EXPECT_NEAR(a.border_radius, std::sqrt(1e-9 / 0.1612545), 1e-6 * a.border_radius)
-      << "√3 − π/2 = 0.1612545";
+  EXPECT_NEAR(a.border_radius, std::sqrt(1e-9 / 0.1612545), 1e-6 * a.border_radius) << "√3 − π/2 = 0.1612545";
   // A sphere has 2η A / V = 6η/r of liquid; its area is counted to 2 % on 12 cells across.
   EXPECT_NEAR(a.liquid_fraction, 6 * 5e-6 / 1.5e-3, 0.04 * a.liquid_fraction);
   EXPECT_THAT(a.warnings, IsEmpty());
 }
 
 TEST(Assess, warns_of_a_wet_foam) {
-  EXPECT_THAT(assessment_of({"foam.lamella_half_thickness=3e-5"}).warnings, Contains(HasSubstr("liquid fraction")));
+  EXPECT_THAT(assessment_of({"foam.lamella_half_thickness=3e-5"}).warnings,
+              Contains(HasSubstr("liquid fraction")));
 }
 
 TEST(Assess, warns_of_borders_as_thick_as_bubbles) {

@@ -16,8 +16,8 @@ grid::Box box_of(double half, int n) {
   return {{-half, -half, -half}, {half, half, half}, {n, n, n}};
 }
 
-// Counting is exact on average over directions; a sphere has them all. What is left is the roughness of counting cells,
-// about one cell in the circumference of a great circle.
+// Counting is exact on average over directions; a sphere has them all. What is left is the roughness of
+// counting cells, about one cell in the circumference of a great circle.
 TEST(FoamEstimate, gives_area_and_volume_of_a_sphere) {
   const double r = 1.5e-3;
   const FoamEstimate estimate = estimate_foam({{{1e-5, 0, -2e-5}, {r, r, r}}}, box_of(2e-3, 64));
@@ -27,8 +27,9 @@ TEST(FoamEstimate, gives_area_and_volume_of_a_sphere) {
   EXPECT_TRUE(estimate.pockets.empty());
 }
 
-// Two spheres of radius r whose centres are r apart: a disc and its rim of radius r √3/2, and two caps of height 3r/2.
-// The centres lie along (1, 2, 3), so that the disc is not along the grid; a single direction is wrong by up to 15 %.
+// Two spheres of radius r whose centres are r apart: a disc and its rim of radius r √3/2, and two caps of
+// height 3r/2. The centres lie along (1, 2, 3), so that the disc is not along the grid; a single direction is
+// wrong by up to 15 %.
 TEST(FoamEstimate, gives_films_and_border_of_two_spheres_that_overlap) {
   const double r = 1e-3;
   const Vec3 half = 0.5 * r * normalized(Vec3{1, 2, 3});
@@ -45,8 +46,8 @@ TEST(FoamEstimate, gives_the_same_on_a_grid_so_fine_that_it_is_coarsened) {
   EXPECT_NEAR(estimate_foam(bubbles, box_of(2e-3, 318)).film_area / coarse, 1, 0.02);
 }
 
-// Six spheres on the axes at distance 1.3 r around the origin overlap their neighbours (1.3 √2 r < 2 r) on all twelve
-// edges of the octahedron but leave the middle free; eight more close its faces.
+// Six spheres on the axes at distance 1.3 r around the origin overlap their neighbours (1.3 √2 r < 2 r) on
+// all twelve edges of the octahedron but leave the middle free; eight more close its faces.
 TEST(FoamEstimate, finds_a_pocket_and_where_it_is) {
   const double r = 1e-3;
   const Vec3 middle{2e-4, 0, 0};
@@ -64,7 +65,8 @@ TEST(FoamEstimate, finds_a_pocket_and_where_it_is) {
   const FoamEstimate estimate = estimate_foam(bubbles, box_of(3e-3, 96));
   ASSERT_EQ(estimate.pockets.size(), 1u);
   EXPECT_NEAR(norm(estimate.pockets[0].position - middle), 0, 6e-3 / 96) << "within a cell";
-  EXPECT_GT(estimate.pockets[0].volume, 4 * pi / 3 * std::pow(0.3 * r, 3)) << "the ball that no sphere reaches";
+  EXPECT_GT(estimate.pockets[0].volume, 4 * pi / 3 * std::pow(0.3 * r, 3))
+      << "the ball that no sphere reaches";
   bubbles.pop_back();
   EXPECT_TRUE(estimate_foam(bubbles, box_of(3e-3, 96)).pockets.empty()) << "open where a sphere is missing";
 }

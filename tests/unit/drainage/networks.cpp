@@ -63,8 +63,8 @@ state::FilmNetwork single_bubble(double radius, int levels, double eta) {
 namespace {
 
 /// A disc of triangles whose outermost ring of vertices is the first n_sectors vertices of the mesh.
-void add_disc(mesh::FilmMesh& mesh, double radius, const std::vector<double>& rings, int n_sectors, double bulge,
-              mesh::Phase below, mesh::Phase above) {
+void add_disc(mesh::FilmMesh& mesh, double radius, const std::vector<double>& rings, int n_sectors,
+              double bulge, mesh::Phase below, mesh::Phase above) {
   const int first = mesh.n_vertices(), n_rings = static_cast<int>(rings.size());
   const auto point = [&](double r, int sector) {
     const double angle = 2 * std::numbers::pi * sector / n_sectors;
@@ -103,7 +103,8 @@ state::FilmNetwork double_bubble(double radius, const std::vector<double>& rings
   return make_network(std::move(mesh), eta, lambda);
 }
 
-state::FilmNetwork three_strips(const std::vector<double>& distances, double length, double eta, double lambda) {
+state::FilmNetwork three_strips(const std::vector<double>& distances, double length, double eta,
+                                double lambda) {
   mesh::FilmMesh mesh;
   mesh.position = {{0, 0, 0}, {0, 0, length}};
   for (int film = 0; film < 3; ++film) {
@@ -153,7 +154,8 @@ state::FilmNetwork tetrahedral_corner(const std::vector<double>& distances, doub
         }
         for (int j = 0; j < row; ++j) {
           mesh.triangle.push_back(mesh::make_triangle(near[j], far[j], far[j + 1], p, q));
-          if (j + 1 < row) mesh.triangle.push_back(mesh::make_triangle(near[j], far[j + 1], near[j + 1], p, q));
+          if (j + 1 < row)
+            mesh.triangle.push_back(mesh::make_triangle(near[j], far[j + 1], near[j + 1], p, q));
         }
         near = std::move(far);
       }

@@ -39,7 +39,8 @@ TEST(Slopes, AreZeroAtExtremaAndNeverOvershootNeighboursWhenLimited) {
   const flow::BlockLayout layout(grid);
   flow::BlockArray u(layout), slope(layout);
   Random random(7);
-  const std::ptrdiff_t first = layout.offset(-flow::margin, 0, 0), last = layout.offset(16 + flow::margin, 0, 0);
+  const std::ptrdiff_t first = layout.offset(-flow::margin, 0, 0),
+                       last = layout.offset(16 + flow::margin, 0, 0);
   for (std::ptrdiff_t c = first; c < last; ++c) u.first()[c] = random.uniform(-1, 1);
   flow::slopes(layout, {{0, 0, 0}, {16, 1, 1}}, 0, true, u.first(), slope.first());
   for (int i = 0; i < 16; ++i) {
@@ -55,8 +56,13 @@ TEST(Slopes, AreZeroAtExtremaAndNeverOvershootNeighboursWhenLimited) {
 
 /// Predicted and projected face velocities of a smooth random flow.
 struct Predicted {
-  explicit Predicted(const grid::Box& box, grid::EllipticBackend backend = grid::EllipticBackend::Trigonometric)
-      : grid(world(), box), u(grid), godunov(grid, true), elliptic(grid, backend), projection(grid, elliptic) {
+  explicit Predicted(const grid::Box& box,
+                     grid::EllipticBackend backend = grid::EllipticBackend::Trigonometric)
+      : grid(world(), box),
+        u(grid),
+        godunov(grid, true),
+        elliptic(grid, backend),
+        projection(grid, elliptic) {
     testing::set_velocity(u, testing::smooth_field(box, 1.0, 3));
     godunov.predict_normals(flow::ghosted_vector(u), flow::block_vector(flow::BlockLayout(grid)), 2.0,
                             0.2 * grid.h());
@@ -89,11 +95,13 @@ TEST(Godunov, NothingCrossesAWall) {
         EXPECT_EQ(flow.godunov.face_velocity()[0].first()[layout.offset(16, j, k)], 0.0);
         inside = std::max(inside, std::abs(flow.godunov.face_velocity()[0].first()[layout.offset(8, j, k)]));
       }
+    const double* z = flow.godunov.face_velocity()[2].first();
     for (int j = 0; j < 16; ++j)
       for (int i = 0; i < 16; ++i) {
-        const double* z = flow.godunov.face_velocity()[2].first();
-        if (flow.grid.z_begin() == 0) EXPECT_EQ(z[layout.offset(i, j, 0)], 0.0);
-        if (flow.grid.z_end() == 16) EXPECT_EQ(z[layout.offset(i, j, nz)], 0.0);
+        const double lowest = flow.grid.z_begin() == 0 ? z[layout.offset(i, j, 0)] : 0.0;
+        const double highest = flow.grid.z_end() == 16 ? z[layout.offset(i, j, nz)] : 0.0;
+        EXPECT_EQ(lowest, 0.0);
+        EXPECT_EQ(highest, 0.0);
       }
     EXPECT_GT(inside, 0.01);
   }

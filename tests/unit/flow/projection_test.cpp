@@ -44,7 +44,8 @@ TEST(Projection, GivesThePressureOfTheGradientItRemoves) {
   grid::Field pressure(grid);
   pressure.fill(5);
   projection.project(density, rate, pressure);
-  // x = −∇q/ρ with ∇q = −ρ sin kz: q = (ρ/k) cos kz has to be taken, so ψ = −q; centred differences are off by (kh)²/6.
+  // x = −∇q/ρ with ∇q = −ρ sin kz: q = (ρ/k) cos kz has to be taken, so ψ = −q; centred differences are off
+  // by (kh)²/6.
   const double kh = k * grid.h();
   EXPECT_LT(testing::scalar_error(pressure, [=](const Vec3& x) { return -density / k * std::cos(k * x.z); }),
             kh * kh / 6 * density / k);

@@ -15,10 +15,13 @@ inline constexpr double box_length = 0.01;  // [m]
 inline grid::Box cube(int cells, std::array<grid::Boundary, 3> boundary) {
   return {{0, 0, 0}, {box_length, box_length, box_length}, {cells, cells, cells}, boundary};
 }
-inline grid::Box cube(int cells, grid::Boundary boundary) { return cube(cells, {boundary, boundary, boundary}); }
+inline grid::Box cube(int cells, grid::Boundary boundary) {
+  return cube(cells, {boundary, boundary, boundary});
+}
 
-/// A smooth vector field of a few random long waves that vanishes, with its normal derivative along the normal
-/// direction, at the faces of the cube across every direction that is not periodic. The same on any number of ranks.
+/// A smooth vector field of a few random long waves that vanishes, with its normal derivative along the
+/// normal direction, at the faces of the cube across every direction that is not periodic. The same on any
+/// number of ranks.
 inline std::function<Vec3(const Vec3&)> smooth_field(const grid::Box& box, double size, std::uint64_t seed) {
   struct Wave {
     Vec3 k, amplitude;

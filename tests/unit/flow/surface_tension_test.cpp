@@ -2,41 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
-#include <numbers>
+#include <cmath>
+#include <span>
 
 #include "spume/grid/loops.hpp"
 #include "spume/mesh/measure.hpp"
+#include "tests/support/film_shapes.hpp"
 
 namespace spume {
 namespace {
-
-using std::numbers::pi;
-
-/// A sphere (phase 1 in phase 0) of radius r: an octahedron divided `levels` times.
-mesh::FilmMesh sphere(double r, const Vec3& centre, int levels) {
-  std::vector<Vec3> points{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-  std::vector<std::array<int, 3>> faces{{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
-                                        {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
-  for (int level = 0; level < levels; ++level) {
-    std::map<std::array<int, 2>, int> middle;
-    const auto between = [&](int a, int b) {
-      const auto [place, is_new] = middle.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<int>(points.size()));
-      if (is_new) points.push_back(normalized(points[a] + points[b]));
-      return place->second;
-    };
-    std::vector<std::array<int, 3>> finer;
-    for (const auto& [a, b, c] : faces) {
-      const int ab = between(a, b), bc = between(b, c), ca = between(c, a);
-      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
-    }
-    faces = finer;
-  }
-  mesh::FilmMesh films;
-  for (const Vec3& p : points) films.position.push_back(centre + r * p);
-  for (const auto& [a, b, c] : faces) films.triangle.push_back(mesh::make_triangle(a, b, c, 1, 0));
-  return films;
-}
 
 constexpr double sigma = 0.03;    // [N/m]
 constexpr double radius = 0.002;  // 16 h [m]
@@ -57,18 +31,19 @@ double magnitude(std::span<const Vec3> forces) {
 }
 
 TEST(SurfaceTension, PressureOfASphereIsThatOfLaplace) {
-  const mesh::FilmMesh films = sphere(radius, centre, 5);  // edges of about radius/20
+  const mesh::FilmMesh films = shapes::sphere(centre, radius, 4, 1);  // edges of about radius/14
   const flow::FilmForces forces = flow::film_forces(films, mesh::build_topology(films), 2, sigma);
   ASSERT_EQ(forces.pressure.size(), 2u);
   EXPECT_EQ(forces.pressure[0], 0.0);
-  // A film pulls with 2σ, so its pressure jump is 2·2σ/R. Facets inscribed in the sphere are off by order (edge/R)².
+  // A film pulls with 2σ, so its pressure jump is 2·2σ/R. Facets inscribed in the sphere are off by order
+  // (edge/R)².
   EXPECT_NEAR(forces.pressure[1], 4 * sigma / radius, 2e-3 * 4 * sigma / radius);
 }
 
 TEST(SurfaceTension, PressureOfASphereConvergesWithSecondOrder) {
   std::vector<double> errors;
-  for (const int levels : {3, 4, 5}) {
-    const mesh::FilmMesh films = sphere(radius, centre, levels);
+  for (const int levels : {2, 3, 4}) {
+    const mesh::FilmMesh films = shapes::sphere(centre, radius, levels, 1);
     const flow::FilmForces forces = flow::film_forces(films, mesh::build_topology(films), 2, sigma);
     errors.push_back(std::abs(forces.pressure[1] * radius / (4 * sigma) - 1));
   }
@@ -77,7 +52,7 @@ TEST(SurfaceTension, PressureOfASphereConvergesWithSecondOrder) {
 }
 
 TEST(SurfaceTension, ASphereAtRestFeelsAlmostNoForceOnceItsPressureIsTakenOut) {
-  const mesh::FilmMesh films = sphere(radius, centre, 5);
+  const mesh::FilmMesh films = shapes::sphere(centre, radius, 4, 1);
   const flow::FilmForces forces = flow::film_forces(films, mesh::build_topology(films), 2, sigma);
   double largest = 0, largest_pull = 0;
   std::vector<Vec3> pull = mesh::area_descent(films);
@@ -86,11 +61,28 @@ TEST(SurfaceTension, ASphereAtRestFeelsAlmostNoForceOnceItsPressureIsTakenOut) {
     largest_pull = std::max(largest_pull, 2 * sigma * norm(pull[v]));
   }
   EXPECT_LT(magnitude(forces.on_vertex), 0.01 * 2 * sigma * magnitude(pull));
-  EXPECT_LT(largest, 0.05 * largest_pull);
+  // The twelve vertices with five triangles keep most: there area and volume gradients differ in size at any
+  // resolution.
+  EXPECT_LT(largest, 0.12 * largest_pull);
+}
+
+TEST(SurfaceTension, TwoEqualBubblesInEquilibriumHaveThePressureOfTheirCapsAndLittleForceLeft) {
+  const double tension = 2 * sigma;
+  std::vector<double> errors, left;
+  for (const int n : {4, 8}) {
+    const mesh::FilmMesh films = shapes::double_bubble(radius, n);
+    const flow::FilmForces forces = flow::film_forces(films, mesh::build_topology(films), 3, sigma);
+    EXPECT_NEAR(forces.pressure[1], forces.pressure[2], 1e-3 * forces.pressure[1]);
+    errors.push_back(std::abs(forces.pressure[1] * radius / (2 * tension) - 1));
+    left.push_back(magnitude(forces.on_vertex) / (tension * magnitude(mesh::area_descent(films))));
+  }
+  EXPECT_LT(errors[1], 5e-3);
+  EXPECT_LT(errors[1], 0.5 * errors[0]);
+  EXPECT_LT(left[1], 0.03);
 }
 
 TEST(SurfaceTension, FilmsPullThemselvesNowhere) {
-  mesh::FilmMesh films = sphere(radius, centre, 4);
+  mesh::FilmMesh films = shapes::sphere(centre, radius, 3, 1);
   for (Vec3& x : films.position) x = {x.x, 0.8 * x.y, x.z + 0.1 * std::sin(3000 * x.x) * radius};
   const flow::FilmForces forces = flow::film_forces(films, mesh::build_topology(films), 2, sigma);
   EXPECT_GT(magnitude(forces.on_vertex), sigma * radius);
@@ -99,7 +91,7 @@ TEST(SurfaceTension, FilmsPullThemselvesNowhere) {
 }
 
 TEST(SurfaceTension, SpreadForceHasTheTotalAndTheMomentOfTheVertexForces) {
-  mesh::FilmMesh films = sphere(radius, centre, 4);
+  mesh::FilmMesh films = shapes::sphere(centre, radius, 3, 1);
   for (Vec3& x : films.position) x.y *= 0.8;
   const flow::FilmForces forces = flow::film_forces(films, mesh::build_topology(films), 2, sigma);
   const grid::Grid grid(parallel::Communicator::world(),

@@ -11,7 +11,8 @@ using std::numbers::pi;
 
 /// Two no-slip walls across `axis`, `cells` apart; the other directions are periodic.
 grid::Box channel(int axis, int cells) {
-  grid::Box box{{0, 0, 0}, {0, 0, 0}, {8, 8, 8}, {Boundary::Periodic, Boundary::Periodic, Boundary::Periodic}};
+  grid::Box box{
+      {0, 0, 0}, {0, 0, 0}, {8, 8, 8}, {Boundary::Periodic, Boundary::Periodic, Boundary::Periodic}};
   box.cells[axis] = cells;
   box.boundary[axis] = Boundary::Wall;
   const double h = testing::box_length / cells;
@@ -31,7 +32,8 @@ TEST(Walls, FlowBetweenNoSlipWallsDrivenByAForceSettlesToThePoiseuilleParabola) 
     flow::NavierStokes navier_stokes(grid, gas, {});
     const double settling = gas.density * width * width / (pi * pi * gas.viscosity);
     for (int step = 0; step < 200; ++step) navier_stokes.step(gas_flow, body_force, 0.2 * settling);
-    // The seven-point Laplacian is exact on the parabola; reflecting cell values about the wall shifts it by fh²/(8μ).
+    // The seven-point Laplacian is exact on the parabola; reflecting cell values about the wall shifts it by
+    // fh²/(8μ).
     const double h = grid.h();
     const auto parabola = [&](const Vec3& x) {
       Vec3 u;
@@ -64,6 +66,28 @@ TEST(Walls, AShearFlowBetweenNoSlipWallsDecaysWithSecondOrderAccuracy) {
   EXPECT_NEAR(std::log2(errors[0] / errors[1]), 2.0, 0.1);
 }
 
+TEST(Walls, CrankNicolsonIsOfSecondOrderInTheStepAlone) {
+  const state::Gas gas;
+  const grid::Grid grid(parallel::Communicator::world(), channel(2, 16));
+  // sin kz between the walls is a mode of the seven-point Laplacian, which decays at this rate on this grid.
+  const double k = pi / testing::box_length;
+  const double rate = gas.viscosity / gas.density * std::pow(2 * std::sin(0.5 * k * grid.h()) / grid.h(), 2);
+  const auto exact = [&](double t) {
+    return [=](const Vec3& x) { return Vec3{0.1 * std::exp(-rate * t) * std::sin(k * x.z), 0, 0}; };
+  };
+  std::vector<double> errors;
+  for (const int steps : {4, 8, 16}) {
+    state::GasFlow gas_flow(grid);
+    testing::set_velocity(gas_flow.velocity, exact(0));
+    const grid::VectorField no_force(grid);
+    flow::NavierStokes navier_stokes(grid, gas, {});
+    for (int step = 0; step < steps; ++step) navier_stokes.step(gas_flow, no_force, 1 / (rate * steps));
+    errors.push_back(testing::velocity_error(gas_flow.velocity, exact(1 / rate)) / 0.1);
+  }
+  EXPECT_NEAR(std::log2(errors[0] / errors[1]), 2.0, 0.1);
+  EXPECT_NEAR(std::log2(errors[1] / errors[2]), 2.0, 0.1);
+}
+
 TEST(Walls, AFlowLeftAloneBetweenWallsLosesKineticEnergyAtEveryStep) {
   const state::Gas gas;
   for (const Boundary boundary : {Boundary::Wall, Boundary::Slip}) {
@@ -75,8 +99,9 @@ TEST(Walls, AFlowLeftAloneBetweenWallsLosesKineticEnergyAtEveryStep) {
     flow::NavierStokes navier_stokes(grid, gas, {});
     double energy = flow::kinetic_energy(gas_flow, gas.density);
     const double start = energy;
+    const double dt = navier_stokes.advection_limit(gas_flow, 0.4).dt;
     for (int step = 0; step < 50; ++step) {
-      navier_stokes.step(gas_flow, no_force, navier_stokes.advection_limit(gas_flow, 0.4).dt);
+      navier_stokes.step(gas_flow, no_force, dt);
       const double now = flow::kinetic_energy(gas_flow, gas.density);
       EXPECT_LT(now, energy) << "step " << step;
       energy = now;
@@ -97,7 +122,8 @@ std::vector<double> eddy(int cells, std::vector<double>& other_component) {
   state::GasFlow gas_flow(grid);
   // The stream function (speed/k) sin² kx sin² ky (1 + ½ cos kx): an eddy off the middle.
   testing::set_velocity(gas_flow.velocity, [=](const Vec3& x) {
-    const double sx = std::sin(k * x.x), cx = std::cos(k * x.x), sy = std::sin(k * x.y), cy = std::cos(k * x.y);
+    const double sx = std::sin(k * x.x), cx = std::cos(k * x.x), sy = std::sin(k * x.y),
+                 cy = std::cos(k * x.y);
     return Vec3{speed * sx * sx * (1 + 0.5 * cx) * 2 * sy * cy,
                 -speed * sy * sy * (2 * sx * cx * (1 + 0.5 * cx) - 0.5 * sx * sx * sx), 0};
   });
@@ -116,7 +142,8 @@ double difference(const std::vector<double>& fine, const std::vector<double>& co
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
       const int corner = 2 * j * 2 * n + 2 * i;
-      const double mean = 0.25 * (fine[corner] + fine[corner + 1] + fine[corner + 2 * n] + fine[corner + 2 * n + 1]);
+      const double mean =
+          0.25 * (fine[corner] + fine[corner + 1] + fine[corner + 2 * n] + fine[corner + 2 * n + 1]);
       squares += std::pow(mean - coarse[j * n + i], 2);
     }
   return std::sqrt(squares / (n * n));

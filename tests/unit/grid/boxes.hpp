@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "spume/base/random.hpp"
 #include "spume/grid/field.hpp"
@@ -19,12 +21,15 @@ inline Box make_box(const Index3& cells, const std::array<Boundary, 3>& boundary
   return {lower, lower + h * Vec3{double(cells.i), double(cells.j), double(cells.k)}, cells, boundary};
 }
 
-/// Boxes of the tests: every kind of boundary in every direction, and layers that 2 and 4 ranks do not divide.
+/// Boxes of the tests: every kind of boundary in every direction, and layers that 2 and 4 ranks do not
+/// divide.
 struct NamedBox {
   std::string name;
   Box box;
 };
-inline void PrintTo(const NamedBox& named, std::ostream* out) { *out << named.name; }
+inline void PrintTo(const NamedBox& named, std::ostream* out) {
+  *out << named.name;
+}
 
 inline std::array<NamedBox, 5> test_boxes() {
   constexpr auto P = Boundary::Periodic, W = Boundary::Wall, S = Boundary::Slip;
@@ -33,6 +38,20 @@ inline std::array<NamedBox, 5> test_boxes() {
           NamedBox{"periodic_slip_wall", make_box({12, 16, 24}, {P, S, W})},
           NamedBox{"wall_periodic_slip_odd_cells", make_box({9, 15, 19}, {W, P, S})},
           NamedBox{"periodic_odd_cells", make_box({15, 11, 27}, {P, P, P})}};
+}
+
+/// The symmetries that occur on a box: of the pressure, of the velocity components, and odd at every wall;
+/// each once.
+inline std::vector<Symmetry> symmetries(const Box& box) {
+  constexpr auto O = Parity::Odd;
+  std::vector<Symmetry> result;
+  for (Symmetry symmetry : {even_symmetry, velocity_symmetry(box, 0), velocity_symmetry(box, 1),
+                            velocity_symmetry(box, 2), Symmetry{O, O, O}}) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (box.boundary[axis] == Boundary::Periodic) symmetry[axis] = Parity::Even;
+    if (std::find(result.begin(), result.end(), symmetry) == result.end()) result.push_back(symmetry);
+  }
+  return result;
 }
 
 /// The same numbers on any number of ranks.
@@ -44,8 +63,8 @@ inline void fill_random(Field& f, std::uint64_t seed) {
   });
 }
 
-/// One factor of a trigonometric mode along `axis` at cell `m`, also beyond the box: e^{…} cosine in periodic
-/// directions, cosine (even) or sine (odd) with nodes at the faces across walls.
+/// One factor of a trigonometric mode along `axis` at cell `m`, also beyond the box (even) or sine (odd) with
+/// nodes at the faces across walls.
 inline double mode(const Box& box, const Symmetry& symmetry, int axis, int number, int m) {
   const int n = box.cells[axis];
   const double angle = std::numbers::pi * (m + 0.5) / n;

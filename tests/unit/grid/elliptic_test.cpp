@@ -22,11 +22,8 @@ struct Coefficients {
   double a, b;
 };
 /// Poisson; a viscous step whose diffusion length sqrt(b/a) is 2 cells; one dominated by a.
-std::vector<Coefficients> coefficients(double h) { return {{0, 1}, {1.2, 4.8 * h * h}, {1.2, 0.01 * h * h}}; }
-
-/// All symmetries of unknowns: pressure, velocity components.
-std::vector<Symmetry> symmetries(const Box& box) {
-  return {even_symmetry, velocity_symmetry(box, 0), velocity_symmetry(box, 1), velocity_symmetry(box, 2)};
+std::vector<Coefficients> coefficients(double h) {
+  return {{0, 1}, {1.2, 4.8 * h * h}, {1.2, 0.01 * h * h}};
 }
 
 bool is_singular(const Box& box, double a, const Symmetry& symmetry) {
@@ -42,16 +39,16 @@ Field residual(double a, double b, const Field& f, const Field& x) {
   const auto g = ghosted<1>(x);
   Field r = f;
   for_each_cell(grid, [&](int i, int j, int k) {
-    const double laplacian = (g(i - 1, j, k) + g(i + 1, j, k) + g(i, j - 1, k) + g(i, j + 1, k) + g(i, j, k - 1) +
-                              g(i, j, k + 1) - 6 * g(i, j, k)) /
+    const double laplacian = (g(i - 1, j, k) + g(i + 1, j, k) + g(i, j - 1, k) + g(i, j + 1, k) +
+                              g(i, j, k - 1) + g(i, j, k + 1) - 6 * g(i, j, k)) /
                              (grid.h() * grid.h());
     owned(r)(i, j, k) -= a * g(i, j, k) - b * laplacian;
   });
   return r;
 }
 
-// Eigenvalue a + b Σ (2 − 2cos θ_d)/h² of the mode; round-off of a transform pair is a few 1e-16, and the bar of the
-// project is 1e-12 relative to the exact solution.
+// Eigenvalue a + b Σ (2 − 2cos θ_d)/h² of the mode; round-off of a transform pair is a few 1e-16, and the bar
+// of the project is 1e-12 relative to the exact solution.
 TEST_P(EllipticOn, TrigonometricBackendIsExactOnTrigonometricModes) {
   const Grid grid(Communicator::world(), GetParam().box);
   EllipticSolver solver(grid, EllipticBackend::Trigonometric);
@@ -62,7 +59,8 @@ TEST_P(EllipticOn, TrigonometricBackendIsExactOnTrigonometricModes) {
         fill_mode(exact, number);
         double eigenvalue = a;
         for (int axis = 0; axis < 3; ++axis)
-          eigenvalue += b * (2 - 2 * std::cos(mode_theta(grid.box(), axis, number[axis]))) / (grid.h() * grid.h());
+          eigenvalue +=
+              b * (2 - 2 * std::cos(mode_theta(grid.box(), axis, number[axis]))) / (grid.h() * grid.h());
         for (std::size_t m = 0; m < f.values().size(); ++m) f.values()[m] = eigenvalue * exact.values()[m];
         solver.solve(a, b, f, x);
         EXPECT_LT(largest_difference(x, exact), 1e-12);
@@ -86,11 +84,13 @@ TEST_P(EllipticOn, TrigonometricSolutionOfARandomRightSideSatisfiesTheSevenPoint
     }
 }
 
-// The acceptance bar of the project for the two backends: 1e-8 relative to the largest value, on random right sides,
-// for Poisson and Helmholtz problems on periodic, walled and mixed boxes. The multigrid tolerance is its default.
+// The acceptance bar of the project for the two backends: 1e-8 relative to the largest value, on random right
+// sides, for Poisson and Helmholtz problems on periodic, walled and mixed boxes. The multigrid tolerance is
+// its default.
 TEST_P(EllipticOn, BackendsAgreeOnRandomRightSides) {
   const Grid grid(Communicator::world(), GetParam().box);
-  EllipticSolver trigonometric(grid, EllipticBackend::Trigonometric), multigrid(grid, EllipticBackend::Multigrid);
+  EllipticSolver trigonometric(grid, EllipticBackend::Trigonometric),
+      multigrid(grid, EllipticBackend::Multigrid);
   for (const auto& [a, b] : coefficients(grid.h()))
     for (const Symmetry& symmetry : symmetries(grid.box())) {
       Field f(grid, symmetry), x(grid, symmetry), y(grid, symmetry);
@@ -143,16 +143,17 @@ TEST_P(EllipticOn, TrigonometricSolutionIsTheSameToTheLastBitOnAnyNumberOfRanks)
 
 TEST(EllipticMultigrid, AnswersStayRightWhenMoreSystemsAreMetThanKept) {
   const Grid grid(Communicator::world(), make_box({8, 8, 16}, {}));
-  EllipticSolver trigonometric(grid, EllipticBackend::Trigonometric), multigrid(grid, EllipticBackend::Multigrid);
+  EllipticSolver trigonometric(grid, EllipticBackend::Trigonometric),
+      multigrid(grid, EllipticBackend::Multigrid);
   Field f(grid), x(grid), y(grid);
   fill_random(f, 37);
-  for (int turn = 0; turn < 2; ++turn)
-    for (int m = 1; m <= 10; ++m) {
-      const double b = m * grid.h() * grid.h();
-      trigonometric.solve(1, b, f, x);
-      multigrid.solve(1, b, f, y);
-      EXPECT_LT(largest_difference(x, y), 1e-8 * max_abs(x));
-    }
+  // Eight are kept: the ninth drops the first, which is then met again, and the last is found.
+  for (const int m : {1, 2, 3, 4, 5, 6, 7, 8, 9, 1, 9}) {
+    const double b = m * grid.h() * grid.h();
+    trigonometric.solve(1, b, f, x);
+    multigrid.solve(1, b, f, y);
+    EXPECT_LT(largest_difference(x, y), 1e-8 * max_abs(x));
+  }
 }
 
 TEST(EllipticMultigrid, NoConvergenceIsANumericalErrorThatSaysWhatHappened) {

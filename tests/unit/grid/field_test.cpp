@@ -17,12 +17,6 @@ class FieldOn : public testing::TestWithParam<NamedBox> {};
 INSTANTIATE_TEST_SUITE_P(Boxes, FieldOn, testing::ValuesIn(test_boxes()),
                          [](const auto& test) { return test.param.name; });
 
-/// Fields of every symmetry that occurs: even, odd, and the three components of a velocity.
-std::vector<Symmetry> symmetries(const Box& box) {
-  constexpr auto O = Parity::Odd;
-  return {even_symmetry, {O, O, O}, velocity_symmetry(box, 0), velocity_symmetry(box, 1), velocity_symmetry(box, 2)};
-}
-
 template <int W>
 double largest_ghost_error(const Grid& grid, const Symmetry& symmetry, const Index3& number) {
   Field f(grid, symmetry);
@@ -37,8 +31,8 @@ double largest_ghost_error(const Grid& grid, const Symmetry& symmetry, const Ind
   return error;
 }
 
-// Periodic, even and odd modes continue across the faces by their own formula, so ghosts on faces, edges and corners
-// are compared with the formula there. Round-off: a few ulp of a phase below 50.
+// Periodic, even and odd modes continue across the faces by their own formula, so ghosts on faces, edges and
+// corners are compared with the formula there. Round-off: a few ulp of a phase below 50.
 TEST_P(FieldOn, GhostsContinueModesOfEverySymmetryOverFacesEdgesAndCorners) {
   const Grid grid(Communicator::world(), GetParam().box);
   for (const Symmetry& symmetry : symmetries(grid.box())) {
@@ -63,7 +57,8 @@ TEST_P(FieldOn, GhostsKeepEveryBitOfTheCellsTheyCopy) {
   for (int k = grid.z_begin() - 3; k < grid.z_end() + 3; ++k)
     for (int j = -3; j < n.j + 3; ++j)
       for (int i = -3; i < n.i + 3; ++i)
-        n_wrong += ghosts(i, j, k) != whole[(std::size_t(source(k, 2)) * n.j + source(j, 1)) * n.i + source(i, 0)];
+        n_wrong +=
+            ghosts(i, j, k) != whole[(std::size_t(source(k, 2)) * n.j + source(j, 1)) * n.i + source(i, 0)];
   EXPECT_EQ(n_wrong, 0);
 }
 
@@ -104,7 +99,8 @@ TEST_P(FieldOn, SumIsTheSameToTheLastBitOnAnyNumberOfRanks) {
 TEST(Field, MaxAbsFindsTheLargestSizeOnAnyRank) {
   const Grid grid(Communicator::world(), test_boxes()[0].box);
   Field f(grid);
-  for_each_cell(grid, [&](int i, int j, int k) { owned(f)(i, j, k) = i == 3 && j == 4 && k == 20 ? -2.5 : 1.0; });
+  for_each_cell(grid,
+                [&](int i, int j, int k) { owned(f)(i, j, k) = i == 3 && j == 4 && k == 20 ? -2.5 : 1.0; });
   EXPECT_EQ(max_abs(f), 2.5);
 }
 

@@ -43,7 +43,9 @@ TEST(Grid, TooManyRanksIsAnInputErrorThatNamesHowManyWork) {
     FAIL() << "no error";
   } catch (const InputError& error) {
     // 7 layers: one rank; 15 layers: three ranks with 5 layers each.
-    const std::string expected = world.size() == 2 ? "works is 1" : world.size() == 4 ? "works is 3" : "works is";
+    const std::string expected = world.size() == 2   ? "works is 1"
+                                 : world.size() == 4 ? "works is 3"
+                                                     : "works is";
     EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
   }
 }

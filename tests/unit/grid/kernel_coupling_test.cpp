@@ -36,7 +36,8 @@ std::vector<Vec3> random_vectors(std::size_t n) {
   return vectors;
 }
 
-// Work of spread forces = work on the points. Both sides are sums of about 1e5 products: 1e-12 of the sum of their sizes.
+// Work of spread forces = work on the points. Both sides are sums of about 1e5 products: 1e-12 of the sum of
+// their sizes.
 TEST_P(KernelCouplingOn, SpreadAndSampleAreAdjoint) {
   const Grid grid(Communicator::world(), GetParam().box);
   const double cell_volume = grid.h() * grid.h() * grid.h();
@@ -95,7 +96,8 @@ TEST_P(KernelCouplingOn, SpreadingIntoEvenFieldsKeepsTheTotalForce) {
   }
 }
 
-/// The kernel as the documentation writes it: δ(r) = Π (1 + cos(π r_d/ζ))/(2ζ) over cells and all their images.
+/// The kernel as the documentation writes it: δ(r) = Π (1 + cos(π r_d/ζ))/(2ζ) over cells and all their
+/// images.
 double sample_by_definition(const Field& u, const Vec3& point, double zeta) {
   const Grid& grid = u.grid();
   const auto ghosts = ghosted<3>(u);

@@ -16,10 +16,6 @@ class SpectralFilterOn : public testing::TestWithParam<NamedBox> {};
 INSTANTIATE_TEST_SUITE_P(Boxes, SpectralFilterOn, testing::ValuesIn(test_boxes()),
                          [](const auto& test) { return test.param.name; });
 
-std::vector<Symmetry> symmetries(const Box& box) {
-  return {even_symmetry, velocity_symmetry(box, 0), velocity_symmetry(box, 1), velocity_symmetry(box, 2)};
-}
-
 // Round-off of a transform pair: a few ulp of the largest value, which is 1.
 constexpr double round_off = 1e-14;
 
@@ -37,7 +33,9 @@ TEST_P(SpectralFilterOn, FactorOneGivesTheFieldBack) {
 TEST_P(SpectralFilterOn, EveryModeIsMultipliedByTheFactorOfItsOwnPhaseAdvance) {
   const Grid grid(Communicator::world(), GetParam().box);
   // Distinguishes the directions.
-  const auto factor = [](const Vec3& theta) { return 0.2 + theta.x + 3 * theta.y * theta.y + std::cos(theta.z); };
+  const auto factor = [](const Vec3& theta) {
+    return 0.2 + theta.x + 3 * theta.y * theta.y + std::cos(theta.z);
+  };
   for (const Symmetry& symmetry : symmetries(grid.box())) {
     const SpectralFilter filter(grid, symmetry, factor);
     for (const Index3& number : {Index3{1, 2, 3}, Index3{4, 1, 2}, Index3{3, 5, 7}}) {
@@ -54,7 +52,8 @@ TEST_P(SpectralFilterOn, EveryModeIsMultipliedByTheFactorOfItsOwnPhaseAdvance) {
 
 TEST_P(SpectralFilterOn, FactorAtZeroMultipliesTheMean) {
   const Grid grid(Communicator::world(), GetParam().box);
-  const SpectralFilter mean_only(grid, even_symmetry, [](const Vec3& theta) { return theta == Vec3{} ? 2.0 : 0.0; });
+  const SpectralFilter mean_only(grid, even_symmetry,
+                                 [](const Vec3& theta) { return theta == Vec3{} ? 2.0 : 0.0; });
   Field f(grid);
   fill_random(f, 2);
   const double mean = sum(f) / double(grid.total_size());

@@ -96,8 +96,18 @@ inline state::Phases unset_phases(int n_bubbles) {
 inline mesh::FilmMesh icosphere(const Vec3& centre, double radius, int levels) {
   mesh::FilmMesh mesh;
   const double g = (1 + std::sqrt(5.0)) / 2;
-  for (const Vec3& v : {Vec3{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g}, {0, -1, -g},
-                        {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}})
+  for (const Vec3& v : {Vec3{-1, g, 0},
+                        {1, g, 0},
+                        {-1, -g, 0},
+                        {1, -g, 0},
+                        {0, -1, g},
+                        {0, 1, g},
+                        {0, -1, -g},
+                        {0, 1, -g},
+                        {g, 0, -1},
+                        {g, 0, 1},
+                        {-g, 0, -1},
+                        {-g, 0, 1}})
     mesh.position.push_back(normalized(v));
   std::vector<std::array<int, 3>> triangles{{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
                                             {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},

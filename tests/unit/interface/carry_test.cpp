@@ -26,7 +26,8 @@ TEST(Carry, MovesFilmsRigidlyInUniformFlow) {
     EXPECT_LT(norm(films.position[v] - before.position[v] - Vec3{0.3e-4, 0, -0.1e-4}), 1e-13 * h);
 }
 
-/// Distance of a vertex carried through steady cellular flow for a time in n steps from where many steps take it.
+/// Distance of a vertex carried through steady cellular flow for a time in n steps from where many steps take
+/// it.
 Vec3 carried(int n_steps) {
   const grid::Grid grid(parallel::Communicator::world(), testing::cube_box(16));
   grid::VectorField u(grid);

@@ -61,11 +61,10 @@ TEST(Contour, PutsVerticesOnTheTiesOfLinearPotentials) {
 }
 
 TEST(Contour, FindsAPhaseThatWinsInsideAnEdgeOnly) {
-  // Phase 2 is largest only in a slab thinner than a cell between phases 0 and 1, where no lattice point lies.
+  // Phase 2 is largest only in a slab thinner than a cell between phases 0 and 1, where no lattice point
+  // lies.
   const grid::Box box = testing::cube_box(8);
-  const auto slab = [](mesh::Phase p, const Vec3& x) {
-    return p == 0 ? x.x : p == 1 ? -x.x : 0.2 * h;
-  };
+  const auto slab = [](mesh::Phase p, const Vec3& x) { return p == 0 ? x.x : p == 1 ? -x.x : 0.2 * h; };
   const auto films = contour_of(testing::sampled(box, slab, 3));
   std::set<std::pair<int, int>> pairs;
   for (const auto& t : films.triangle) pairs.insert({t.phase_a, t.phase_b});

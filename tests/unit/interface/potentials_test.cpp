@@ -28,8 +28,13 @@ TEST(PhasePotentials, InterpolateCubicPolynomialsExactly) {
 }
 
 /// Four cones around the corners of a tetrahedron: smooth where they meet.
-Vec3 corner(int p) { return 5 * h * std::array{Vec3{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}[p]; }
-double cone(mesh::Phase p, const Vec3& x) { return -2 * norm(x - corner(p)); }
+Vec3 corner(int p) {
+  constexpr std::array<Vec3, 4> corners{Vec3{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+  return 5 * h * corners[p];
+}
+double cone(mesh::Phase p, const Vec3& x) {
+  return -2 * norm(x - corner(p));
+}
 
 TEST(PhasePotentials, ProjectPutsPointsOnFilmsBordersAndJunctions) {
   const auto potentials = testing::sampled(testing::cube_box(24), cone, 4);

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double variance = 2e-8;  // 2 h² for h = 0.1 mm [m²]
 
-/// ∫_0^x of the kernel integrated over the plane, straight from its transform: (1/π) ∫ T(s k²/2) sin(kx)/k dk.
+/// ∫_0^x of the kernel integrated over the plane, straight from its transform: (1/π) ∫ T(s k²/2) sin(kx)/k
+/// dk.
 double profile_by_quadrature(double x) {
   const double last = 14 / std::sqrt(variance);
   constexpr int n = 20000;
@@ -34,7 +35,8 @@ TEST(Profile, MapInvertsTheProfileWhereItIsSteep) {
   const FlatFilmMap map(variance, 0.3);
   for (double cells : {-1.0, -0.4, 0.0, 0.01, 0.5, 0.9, 1.1})
     // The chord of the table is within 1e-5 of a width; one Newton step squares that.
-    EXPECT_NEAR(map.distance(0.5 + flat_film_profile(cells * 1e-4, variance)), cells * 1e-4, 1e-9 * 1e-4) << cells;
+    EXPECT_NEAR(map.distance(0.5 + flat_film_profile(cells * 1e-4, variance)), cells * 1e-4, 1e-9 * 1e-4)
+        << cells;
 }
 
 TEST(Profile, MapIsContinuousAndMonotonicForAllIndicators) {
@@ -45,7 +47,8 @@ TEST(Profile, MapIsContinuousAndMonotonicForAllIndicators) {
     const double x = map.distance(c);
     EXPECT_GT(x, previous);
     // The map's slope is at most that of the continuation, 1/(0.3 × 15/8 × 0.282/σ) with σ = √2 × 1e-4 m.
-    EXPECT_LT(x - previous, 1.01 * step * std::sqrt(variance) / (0.3 * 15 / 8 / std::sqrt(2 * std::numbers::pi)));
+    EXPECT_LT(x - previous,
+              1.01 * step * std::sqrt(variance) / (0.3 * 15 / 8 / std::sqrt(2 * std::numbers::pi)));
     previous = x;
   }
   EXPECT_NEAR(map.distance(0.2), -map.distance(0.8), 1e-15 * 1e-4);

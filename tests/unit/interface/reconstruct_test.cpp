@@ -18,8 +18,8 @@ using testing::h;
 using Kind = PhaseChange::Kind;
 
 // Minimal cluster of four equal bubbles, radii of the outer films R.
-constexpr double cluster_area = 33.499028379;    // R²
-constexpr double cluster_volume = 2.791585698;   // of each, R³
+constexpr double cluster_area = 33.499028379;   // R²
+constexpr double cluster_volume = 2.791585698;  // of each, R³
 
 /// Film area over that of the exact cluster of the same volumes, less one.
 double area_error(const mesh::FilmMesh& films) {
@@ -47,7 +47,8 @@ int n_closed_surfaces(const mesh::FilmMesh& films, mesh::Phase phase) {
 TEST(Construct, OfFourEqualBubblesFindsTheTetrahedralCluster) {
   const grid::Grid grid(parallel::Communicator::world(), testing::cube_box(36));
   auto phases = testing::unset_phases(4);
-  const auto result = construct(grid, testing::power_diagram(testing::tetrahedral_cluster(8 * h)), phases, {});
+  const auto result =
+      construct(grid, testing::power_diagram(testing::tetrahedral_cluster(8 * h)), phases, {});
   const auto topology = mesh::build_topology(result.films);
   EXPECT_EQ(topology.n_lamellae(), 10);
   EXPECT_EQ(topology.n_borders(), 10);
@@ -56,7 +57,8 @@ TEST(Construct, OfFourEqualBubblesFindsTheTetrahedralCluster) {
   EXPECT_EQ(result.report.n_refused_projections, 0);
   EXPECT_TRUE(result.report.changes.empty());
   // The functions' volumes are found by linear interpolation with vertices on the films: 0.2 %, measured.
-  for (int p = 1; p <= 4; ++p) EXPECT_NEAR(phases.target_volume[p] / (cluster_volume * std::pow(8 * h, 3)), 1, 4e-3);
+  for (int p = 1; p <= 4; ++p)
+    EXPECT_NEAR(phases.target_volume[p] / (cluster_volume * std::pow(8 * h, 3)), 1, 4e-3);
   EXPECT_LT(volume_error(result.films, phases), 1e-9);
 }
 
@@ -136,7 +138,7 @@ TEST(Reconstruct, SplitsADumbbellWhoseNeckIsThinnerThanTheGrid) {
   const grid::Grid grid(parallel::Communicator::world(), box);
   const auto dumbbell = [](mesh::Phase p, const Vec3& x) {
     const Vec3 on_axis{std::clamp(x.x, -8 * h, 8 * h), 0.2 * h, -0.1 * h};
-    const double d = std::max({0.9 * h - norm(x - on_axis), 5 * h - norm(x - Vec3{-8 * h, 0, 0}),
+    const double d = std::max({0.6 * h - norm(x - on_axis), 5 * h - norm(x - Vec3{-8 * h, 0, 0}),
                                4 * h - norm(x - Vec3{8 * h, 0, 0})});
     return p == 1 ? d : -d;
   };
@@ -152,7 +154,8 @@ TEST(Reconstruct, SplitsADumbbellWhoseNeckIsThinnerThanTheGrid) {
   EXPECT_EQ(change.kind, Kind::Split);
   EXPECT_EQ(change.other, 2);
   EXPECT_NEAR(phases.target_volume[1] + phases.target_volume[2], volume, 1e-14 * volume);
-  EXPECT_NEAR(phases.target_volume[2] / phases.target_volume[1], 64.0 / 125, 0.05);  // spheres; the neck is shared
+  EXPECT_NEAR(phases.target_volume[2] / phases.target_volume[1], 64.0 / 125,
+              0.05);  // spheres; the neck is shared
   EXPECT_LT(volume_error(result.films, phases), 1e-9);
   EXPECT_EQ(n_closed_surfaces(result.films, 1), 1);
   EXPECT_EQ(n_closed_surfaces(result.films, 2), 1);
@@ -162,10 +165,13 @@ TEST(Reconstruct, SplitsADumbbellWhoseNeckIsThinnerThanTheGrid) {
 TEST(Reconstruct, GivesTheGasOfATinyBubbleToTheNeighbourWithMostCommonFilm) {
   const grid::Box box = testing::cube_box(36);
   const grid::Grid grid(parallel::Communicator::world(), box);
-  // Bubble 3 sits on the outer film of bubble 2, most of it inside.
-  const std::vector<testing::Ball> balls{
-      {{-5 * h, 0, 0}, 6 * h}, {{5 * h, 0, 0}, 6 * h}, {{10.7 * h, 0.3 * h, 0.2 * h}, 1.5 * h}};
-  const auto potentials = testing::sampled(box, testing::power_diagram(balls), 4);
+  // Bubble 3 is a small ball on the film of bubbles 1 and 2, most of it on the side of 2.
+  const auto two = testing::power_diagram({{{-5 * h, 0, 0}, 6 * h}, {{5 * h, 0, 0}, 6 * h}});
+  const auto foam = [&](mesh::Phase p, const Vec3& x) {
+    if (p < 3) return two(p, x);
+    return std::max({two(0, x), two(1, x), two(2, x)}) + 1.4 * h - norm(x - Vec3{0.6 * h, 0.3 * h, 0.2 * h});
+  };
+  const auto potentials = testing::sampled(box, foam, 4);
   const auto films = contour(potentials, find_winners(potentials).phase);
   auto phases = testing::unset_phases(3);
   const auto volume = mesh::phase_volumes(films, 4);
@@ -178,8 +184,9 @@ TEST(Reconstruct, GivesTheGasOfATinyBubbleToTheNeighbourWithMostCommonFilm) {
   EXPECT_EQ(result.report.changes[0].phase, 3);
   EXPECT_DOUBLE_EQ(result.report.changes[0].volume, volume[3]);
   EXPECT_EQ(phases.target_volume[3], 0);
-  const mesh::Phase heir = result.report.changes[0].other;
-  if (heir > 0) EXPECT_DOUBLE_EQ(phases.target_volume[heir], volume[heir] + volume[3]);
+  EXPECT_EQ(result.report.changes[0].other, 2);
+  EXPECT_DOUBLE_EQ(phases.target_volume[1], volume[1]);
+  EXPECT_DOUBLE_EQ(phases.target_volume[2], volume[2] + volume[3]);
   EXPECT_EQ(n_closed_surfaces(result.films, 3), 0);
   EXPECT_LT(volume_error(result.films, phases), 1e-9);
 }
@@ -203,31 +210,13 @@ TEST(Reconstruct, KeepsRandomClustersConformingAndWhole) {
   const grid::Grid grid(parallel::Communicator::world(), testing::cube_box(48));
   auto phases = testing::unset_phases(12);
   auto result = construct(grid, testing::power_diagram(testing::random_balls(12, 6 * h, 3)), phases, {});
-  double area = mesh::film_area(result.films);
   for (int n = 0; n < 3; ++n) {
     result = reconstruct(grid, result.films, phases, {});
     EXPECT_EQ(result.report.n_nonconforming_edges, 0);
-    for (int p = 1; p < phases.count(); ++p) EXPECT_EQ(n_closed_surfaces(result.films, p), phases.alive(p)) << p;
+    for (int p = 1; p < phases.count(); ++p)
+      EXPECT_EQ(n_closed_surfaces(result.films, p), phases.alive(p)) << p;
     EXPECT_LT(volume_error(result.films, phases), 1e-8);
-    area = mesh::film_area(result.films);
   }
-  EXPECT_GT(area, 0);
-}
-
-TEST(Reconstruct, DoesNotDependOnTheNumberOfRanks) {
-  const grid::Box box = testing::cube_box(36);
-  const grid::Grid together(parallel::Communicator::world(), box), alone(parallel::Communicator(MPI_COMM_SELF), box);
-  const auto foam = testing::power_diagram(testing::tetrahedral_cluster(8 * h));
-  auto phases = testing::unset_phases(4), phases_alone = phases;
-  auto a = construct(together, foam, phases, {});
-  auto b = construct(alone, foam, phases_alone, {});
-  a = reconstruct(together, a.films, phases, {});
-  b = reconstruct(alone, b.films, phases_alone, {});
-  ASSERT_EQ(a.films.n_vertices(), b.films.n_vertices());
-  ASSERT_EQ(a.films.n_triangles(), b.films.n_triangles());
-  for (int v = 0; v < a.films.n_vertices(); ++v)
-    ASSERT_LT(norm(a.films.position[v] - b.films.position[v]), 1e-10 * h) << v;
-  for (int t = 0; t < a.films.n_triangles(); ++t) ASSERT_EQ(a.films.triangle[t].vertex, b.films.triangle[t].vertex);
 }
 
 }  // namespace

@@ -62,27 +62,30 @@ TEST(CheckpointFolders, EveryInstantOfAReplacementHasACompleteOne) {
     const char *in_new, *in_current, *in_old, *expected;  // "-": no folder; leading '?': no marker
   };
   const Instant instants[] = {
-      {"?half", "B", "-", "B"},   // while writing
-      {"C", "B", "-", "C"},       // marker written
-      {"C", "-", "B", "C"},       // between the two renames
-      {"-", "C", "B", "C"},       // renamed, the old one not yet removed
-      {"-", "C", "?half", "C"},   // while removing the old one
-      {"?half", "-", "B", "B"},   // killed between the renames, restarted with new removed, killed while writing
-      {"C", "B", "A", "C"},       // an old one was left from before
+      {"?half", "B", "-", "B"},  // while writing
+      {"C", "B", "-", "C"},      // marker written
+      {"C", "-", "B", "C"},      // between the two renames
+      {"-", "C", "B", "C"},      // renamed, the old one not yet removed
+      {"-", "C", "?half", "C"},  // while removing the old one
+      {"?half", "-", "B",
+       "B"},                 // killed between the renames, restarted with new removed, killed while writing
+      {"C", "B", "A", "C"},  // an old one was left from before
       {"?half", "-", "-", "none"},  // before the first was ever complete
   };
   for (const Instant& instant : instants) {
     const ScratchFolder folder;
     const auto make = [&](const char* name, const std::string& text) {
-      if (text != "-") put(folder.path() / name, text.front() == '?' ? text.substr(1) : text, text.front() != '?');
+      if (text != "-")
+        put(folder.path() / name, text.front() == '?' ? text.substr(1) : text, text.front() != '?');
     };
     make("checkpoint.new", instant.in_new);
     make("checkpoint", instant.in_current);
     make("checkpoint.old", instant.in_old);
     EXPECT_EQ(found_in(folder.path()), instant.expected);
     // A writer that is killed right away must not lose it, and one that succeeds cleans up.
-    EXPECT_THROW(CheckpointFolders(folder.path()).replace([](const fs::path&) { throw std::runtime_error("killed"); }),
-                 std::runtime_error);
+    EXPECT_THROW(
+        CheckpointFolders(folder.path()).replace([](const fs::path&) { throw std::runtime_error("killed"); }),
+        std::runtime_error);
     EXPECT_EQ(found_in(folder.path()), instant.expected);
     CheckpointFolders(folder.path()).replace(writer("D"));
     EXPECT_EQ(text_of(folder.path() / "checkpoint" / "state"), "D");
@@ -99,7 +102,8 @@ TEST(CheckpointFolders, KilledWritersLeaveAWholeStateEveryTime) {
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-      for (char c = 'a';; c = c == 'z' ? 'a' : c + 1) CheckpointFolders(folder.path()).replace(writer(std::string(length, c)));
+      for (char c = 'a';; c = c == 'z' ? 'a' : c + 1)
+        CheckpointFolders(folder.path()).replace(writer(std::string(length, c)));
     }
     usleep(2000 + 1700 * kill_number);
     ::kill(child, SIGKILL);

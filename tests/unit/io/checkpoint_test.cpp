@@ -16,7 +16,9 @@ namespace {
 
 using testing::ScratchFolder;
 
-grid::Box box_of(int nx) { return {{0, 0, 0}, {1e-3, 1e-3 * 10 / nx, 1e-3 * 12 / nx}, {nx, 10, 12}}; }
+grid::Box box_of(int nx) {
+  return {{0, 0, 0}, {1e-3, 1e-3 * 10 / nx, 1e-3 * 12 / nx}, {nx, 10, 12}};
+}
 
 /// A foam whose numbers are all different and use all their bits.
 void fill(state::Foam& foam) {
@@ -24,17 +26,22 @@ void fill(state::Foam& foam) {
   foam.films = shapes::four_bubbles(1e-3 / 3, 3);
   const auto topology = mesh::build_topology(foam.films);
   foam.phases.target_volume = {0, 1e-9 / 3, 0, 1e-9 / 7, 5e-324};
-  for (std::size_t d = 0; d < topology.film_dof.size(); ++d) foam.liquid.lamella_volume.push_back(1e-14 / (d + 3));
-  for (std::size_t d = 0; d < topology.border_dof.size(); ++d) foam.liquid.border_volume.push_back(1e-13 / (d + 3));
+  for (std::size_t d = 0; d < topology.film_dof.size(); ++d)
+    foam.liquid.lamella_volume.push_back(1e-14 / (d + 3));
+  for (std::size_t d = 0; d < topology.border_dof.size(); ++d)
+    foam.liquid.border_volume.push_back(1e-13 / (d + 3));
   foam.liquid.lamella_is_young = {0, 1, 1, 0};
   foam.liquid.lamella_area_at_transfer = {1e-6 / 3, -0.0, std::numeric_limits<double>::infinity()};
   foam.liquid.sprayed = 1e-15 / 3;
   for (int axis = 0; axis < 3; ++axis) {
     auto u = grid::owned(foam.gas.velocity[axis]);
-    grid::for_each_cell(foam.gas.pressure.grid(), [&](int i, int j, int k) { u(i, j, k) = std::sin(i + 20 * j + 300 * k + 0.1 * axis); });
+    grid::for_each_cell(foam.gas.pressure.grid(), [&](int i, int j, int k) {
+      u(i, j, k) = std::sin(i + 20 * j + 300 * k + 0.1 * axis);
+    });
   }
   auto p = grid::owned(foam.gas.pressure);
-  grid::for_each_cell(foam.gas.pressure.grid(), [&](int i, int j, int k) { p(i, j, k) = std::cos(i + 20 * j + 300 * k); });
+  grid::for_each_cell(foam.gas.pressure.grid(),
+                      [&](int i, int j, int k) { p(i, j, k) = std::cos(i + 20 * j + 300 * k); });
 }
 
 void expect_same_bits(const state::Foam& a, const state::Foam& b) {
@@ -75,6 +82,23 @@ TEST(Checkpoint, ReadsBackBitForBitOnEveryRank) {
   expect_same_bits(foam, again);
   EXPECT_EQ(extras_again.numbers, extras.numbers);
   EXPECT_EQ(extras_again.lists, extras.lists);
+}
+
+TEST(Checkpoint, ReadsBackOnAnotherNumberOfRanks) {
+  const ScratchFolder folder;
+  const auto world = parallel::Communicator::world();
+  const grid::Grid grid(world, box_of(9));
+  state::Foam foam(grid), again(grid);
+  fill(foam);
+  if (world.is_root()) {
+    const grid::Grid alone(parallel::Communicator(MPI_COMM_SELF), box_of(9));
+    state::Foam whole(alone);
+    fill(whole);
+    save_checkpoint(folder.path(), whole, {});
+  }
+  world.barrier();
+  load_checkpoint(folder.path(), again);
+  expect_same_bits(foam, again);
 }
 
 TEST(Checkpoint, SecondOneReplacesTheFirst) {

@@ -23,12 +23,14 @@ TEST(CsvTable, StartsWithItsHeaderAndHasOneLineARow) {
   EXPECT_EQ(text_of(folder.path() / "a.csv"), "n,x_m,word\n");
   table.append({3, 0.5, "film"});
   table.append({-1, 1e-300, ""});
-  EXPECT_EQ(text_of(folder.path() / "a.csv"), "n,x_m,word\n3,0.5,film\n-1,1e-300,\n");  // there before it is closed
+  EXPECT_EQ(text_of(folder.path() / "a.csv"),
+            "n,x_m,word\n3,0.5,film\n-1,1e-300,\n");  // there before it is closed
 }
 
 TEST(CsvTable, NumbersReadBackToTheSameBits) {
   const ScratchFolder folder;
-  const double values[] = {0.1, 1.0 / 3, 6.02214076e23, 5e-324, -1.7976931348623157e308, std::nextafter(1e-6, 1)};
+  const double values[] = {
+      0.1, 1.0 / 3, 6.02214076e23, 5e-324, -1.7976931348623157e308, std::nextafter(1e-6, 1)};
   CsvTable table(folder.path() / "a.csv", columns);
   for (double value : values) table.append({0, value, "x"});
   std::ifstream file(folder.path() / "a.csv");

@@ -20,7 +20,8 @@ TEST(PvdSeries, IsValidXmlWithOneDataSetAFrame) {
   series.append(0, "films/films_000000.vtp");
   series.append(1.0 / 3, "films/films_000001.vtp");
 
-  const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(path.c_str()));
+  const auto root =
+      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(path.c_str()));
   ASSERT_NE(root, nullptr);
   EXPECT_STREQ(root->GetName(), "VTKFile");
   EXPECT_STREQ(root->GetAttribute("type"), "Collection");
@@ -39,7 +40,8 @@ TEST(PvdSeries, IsCutBackToTheFramesThatCount) {
   const auto path = folder.path() / "films.pvd";
   {
     PvdSeries series(path);
-    for (const char* name : {"f0", "f1", "f2", "f3"}) series.append(0.1 * static_cast<double>(series.frames().size()), name);
+    for (const char* name : {"f0", "f1", "f2", "f3"})
+      series.append(0.1 * static_cast<double>(series.frames().size()), name);
   }
   PvdSeries series(path, 2);
   EXPECT_EQ(read_pvd(path).size(), 2u);

@@ -30,8 +30,10 @@ struct Sample {
   mesh::Topology topology = mesh::build_topology(films);
   state::FilmLiquid liquid;
   Sample() {
-    for (std::size_t d = 0; d < topology.film_dof.size(); ++d) liquid.lamella_volume.push_back(1e-14 * (1 + 0.01 * d));
-    for (std::size_t d = 0; d < topology.border_dof.size(); ++d) liquid.border_volume.push_back(1e-13 * (1 + 0.01 * d));
+    for (std::size_t d = 0; d < topology.film_dof.size(); ++d)
+      liquid.lamella_volume.push_back(1e-14 * (1 + 0.01 * d));
+    for (std::size_t d = 0; d < topology.border_dof.size(); ++d)
+      liquid.border_volume.push_back(1e-13 * (1 + 0.01 * d));
   }
   state::FilmFrame frame(double time) const { return film_frame(films, topology, liquid, time); }
 };
@@ -118,7 +120,8 @@ TEST(VtkFilms, HoldsTheArraysOfTheOutputFolderForVtksOwnReader) {
     ASSERT_EQ(array->GetNumberOfTuples(), data->GetNumberOfCells()) << name;
     for (vtkIdType c = 0; c < data->GetNumberOfCells(); ++c) {
       const bool is_line = data->GetCell(c)->GetCellDimension() == 1;
-      EXPECT_EQ(array->GetTuple1(c) >= 0, is_line == (std::string(name) == "border")) << name << " of cell " << c;
+      EXPECT_EQ(array->GetTuple1(c) >= 0, is_line == (std::string(name) == "border"))
+          << name << " of cell " << c;
     }
   }
   EXPECT_EQ(data->GetFieldData()->GetArray("TimeValue")->GetTuple1(0), 0.25);

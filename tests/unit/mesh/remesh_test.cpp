@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "spume/base/random.hpp"
 #include "spume/mesh/measure.hpp"
@@ -170,21 +171,36 @@ TEST(Remesh, removes_tiny_edges_planted_on_the_border) {
   EXPECT_EQ(build_topology(mesh).border_edge.size(), ring.vertices.size() - 1);
 }
 
-TEST(Remesh, removes_film_vertices_of_three_triangles_whatever_their_edges) {
+/// A sphere with one vertex more, in the middle of a triangle; its number is the lowest or the highest.
+FilmMesh sphere_with_needless_vertex(bool lowest) {
   FilmMesh mesh = shapes::sphere({}, radius, 2, 1);
-  const int n_before = mesh.n_vertices();
+  const int extra = mesh.n_vertices();
   const FilmTriangle t = mesh.triangle[17];
   const auto [a, b, c] = t.vertex;
   mesh.position.push_back(radius * normalized(mesh.position[a] + mesh.position[b] + mesh.position[c]));
-  mesh.triangle[17].vertex = {a, b, n_before};
-  mesh.triangle.push_back({{b, c, n_before}, t.phase_a, t.phase_b});
-  mesh.triangle.push_back({{c, a, n_before}, t.phase_a, t.phase_b});
+  mesh.triangle[17].vertex = {a, b, extra};
+  mesh.triangle.push_back({{b, c, extra}, t.phase_a, t.phase_b});
+  mesh.triangle.push_back({{c, a, extra}, t.phase_a, t.phase_b});
+  if (lowest) {
+    std::swap(mesh.position[0], mesh.position[extra]);
+    for (auto& s : mesh.triangle)
+      for (int& v : s.vertex) v = v == 0 ? extra : v == extra ? 0 : v;
+  }
+  return mesh;
+}
 
+TEST(Remesh, removes_film_vertices_of_three_triangles_whatever_their_edges) {
+  const double target =
+      0.15 * radius;  // the shortest edge is 1.1 of that: none is short, and 2.2 is the longest
   RemeshParameters parameters;
   parameters.smoothing_sweeps = 0;
-  const RemeshReport report = remesh(mesh, uniform(0.3 * radius), on_sphere, parameters);
-  EXPECT_EQ(report.n_collapsed, 1);
-  EXPECT_EQ(mesh.n_vertices(), n_before);
+  for (bool lowest : {false, true}) {
+    FilmMesh mesh = sphere_with_needless_vertex(lowest);
+    ASSERT_GT(measure_quality(mesh, build_topology(mesh)).shortest_edge, target);
+    const RemeshReport report = remesh(mesh, uniform(target), on_sphere, parameters);
+    EXPECT_EQ(report.n_collapsed, 1);
+    EXPECT_EQ(mesh.n_triangles(), 320);
+  }
 }
 
 TEST(Remesh, splitting_brings_all_edges_to_the_target) {

@@ -76,7 +76,8 @@ TEST(Communicator, WorkOnRootRunsThereOnly) {
 
 TEST(Communicator, FailureOnRootIsThrownOnEveryRankWithItsTypeAndMessage) {
   const Communicator world = Communicator::world();
-  EXPECT_EQ(failure_of([&] { world.on_root([] { throw InputError("no such key"); }); }), "input: no such key");
+  EXPECT_EQ(failure_of([&] { world.on_root([] { throw InputError("no such key"); }); }),
+            "input: no such key");
   EXPECT_EQ(failure_of([&] { world.on_root([] { throw NumericalError("NaN"); }); }), "numerical: NaN");
   EXPECT_EQ(failure_of([&] { world.on_root([] { throw Interrupted("signal"); }); }), "interrupted: signal");
   EXPECT_EQ(failure_of([&] { world.on_root([] { throw std::logic_error("bug"); }); }), "other: bug");

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <CLI/App.hpp>
+
+#include "spume/parallel/communicator.hpp"
+
+namespace spume::app {
+
+// Each function adds one sub-command to the command line; its work is done when the line has been parsed. A
+// sub-command throws InputError, NumericalError or Interrupted, which the program turns into its exit code.
+// Only rank 0 writes.
+void add_run(CLI::App& program, const parallel::Communicator& communicator);
+void add_resume(CLI::App& program, const parallel::Communicator& communicator);
+void add_check(CLI::App& program, const parallel::Communicator& communicator);
+void add_describe(CLI::App& program, const parallel::Communicator& communicator);
+void add_info(CLI::App& program, const parallel::Communicator& communicator);
+void add_render(CLI::App& program, const parallel::Communicator& communicator);
+
+}  // namespace spume::app

@@ -1,0 +1,66 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "apps/spume/commands.hpp"
+#include "spume/base/error.hpp"
+#include "spume/config/version.hpp"
+#include "spume/parallel/session.hpp"
+
+namespace spume::app {
+namespace {
+
+enum ExitCode { done = 0, wrong_input = 1, numerical_failure = 2, interrupted = 3 };
+
+/// What CLI11 says: help and version are no failures, everything else is wrong input.
+ExitCode answer(const CLI::App& program, const CLI::ParseError& error, bool is_root) {
+  const bool asked_for = error.get_exit_code() == 0;
+  if (is_root && asked_for) program.exit(error);
+  if (is_root && !asked_for)
+    std::fprintf(stderr, "%s\nspume --help and spume SUBCOMMAND --help show what is possible\n",
+                 error.what());
+  return asked_for ? done : wrong_input;
+}
+
+ExitCode run_program(int argc, char** argv, const parallel::Communicator& communicator) {
+  CLI::App program("spume simulates how a foam lives and dies: rearrangement, drainage, rupture", "spume");
+  program.set_version_flag("--version", config::version());
+  program.require_subcommand(1);
+  add_run(program, communicator);
+  add_resume(program, communicator);
+  add_check(program, communicator);
+  add_describe(program, communicator);
+  add_info(program, communicator);
+  add_render(program, communicator);
+
+  const auto say = [&](const char* what, const std::exception& error) {
+    if (communicator.is_root()) std::fprintf(stderr, "%s%s\n", what, error.what());
+  };
+  try {
+    program.parse(argc, argv);
+    return done;
+  } catch (const CLI::ParseError& error) {
+    return answer(program, error, communicator.is_root());
+  } catch (const InputError& error) {
+    say("", error);
+    return wrong_input;
+  } catch (const Interrupted& error) {
+    say("", error);
+    return interrupted;
+  } catch (const std::exception& error) {
+    say("failed: ", error);
+    return numerical_failure;
+  }
+}
+
+}  // namespace
+}  // namespace spume::app
+
+int main(int argc, char** argv) {
+  try {
+    const spume::parallel::Session session(argc, argv);
+    return spume::app::run_program(argc, argv, spume::parallel::Communicator::world());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "failed: %s\n", error.what());
+    return spume::app::numerical_failure;
+  }
+}
