@@ -3,6 +3,7 @@
 
 #include "apps/spume/commands.hpp"
 #include "spume/base/error.hpp"
+#include "spume/config/nearest.hpp"
 #include "spume/config/version.hpp"
 #include "spume/parallel/session.hpp"
 
@@ -11,13 +12,24 @@ namespace {
 
 enum ExitCode { done = 0, wrong_input = 1, numerical_failure = 2, interrupted = 3 };
 
-/// What CLI11 says: help and version are no failures, everything else is wrong input.
+/// What is wrong with the command line. CLI11 takes an unknown sub-command for a missing one.
+std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
+  const auto unknown = program.remaining();
+  if (!program.get_subcommands().empty() || unknown.empty() || unknown.front().starts_with('-'))
+    return error.what();
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  return "unknown sub-command '" + unknown.front() + "'" +
+         config::did_you_mean(config::nearest_names(unknown.front(), names));
+}
+
+/// Help and version are no failures, everything else that CLI11 throws is wrong input.
 ExitCode answer(const CLI::App& program, const CLI::ParseError& error, bool is_root) {
   const bool asked_for = error.get_exit_code() == 0;
   if (is_root && asked_for) program.exit(error);
   if (is_root && !asked_for)
     std::fprintf(stderr, "%s\nspume --help and spume SUBCOMMAND --help show what is possible\n",
-                 error.what());
+                 complaint(program, error).c_str());
   return asked_for ? done : wrong_input;
 }
 

@@ -28,10 +28,13 @@ void run(const parallel::Communicator& communicator, const Request& request) {
       request.folder.empty() ? default_output_folder(request.file) : std::filesystem::path(request.folder);
   communicator.on_root([&] { check_output_folder(folder, request.file); });
 
-  // A folder that holds a run will be refused unless --force is given: its log stays as it is.
+  // A folder that holds a run is going to be refused unless --force is given: its log stays as it is.
+  const bool accepted = request.force || !holds_run(folder);
   std::optional<LogFile> log;
-  if (request.force || !holds_run(folder)) log.emplace(communicator, folder, LogFile::Mode::New);
-  communicator.on_root([&] { announce(loaded, request.file, folder, communicator.size(), request.quiet); });
+  if (accepted) {
+    log.emplace(communicator, folder, LogFile::Mode::New);
+    communicator.on_root([&] { announce(loaded, request.file, folder, communicator.size(), request.quiet); });
+  }
   stop_on_signal();
   try {
     const auto summary =

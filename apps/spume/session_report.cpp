@@ -28,7 +28,7 @@ std::string ending(const simulation::RunSummary& summary) {
   const std::vector<std::vector<std::string>> rows{
       {"simulated time", fmt::format("{:.6g} s", summary.time)},
       {"ruptures", fmt::format("{}", summary.ruptures)},
-      {"foam now", fmt::format("{} bubbles, {} lamellae, {} Plateau borders, {} junctions", summary.bubbles,
+      {"foam now", fmt::format("bubbles {}, lamellae {}, Plateau borders {}, junctions {}", summary.bubbles,
                                summary.lamellae, summary.borders, summary.junctions)},
       {"film area", fmt::format("{:.4g} m²", summary.film_area)},
       {"liquid ledger", fmt::format("off by {:.1e} of the liquid", summary.liquid_error)}};

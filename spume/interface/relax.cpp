@@ -3,6 +3,7 @@
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "spume/base/error.hpp"
@@ -28,15 +29,23 @@ SparseMatrix implicit_matrix(const mesh::FilmMesh& films, double tau, Eigen::Vec
     const double doubled_area = norm(mesh::doubled_area_normal(films, t));
     for (int c = 0; c < 3; ++c) mass_over_tau(v[c]) += doubled_area / (6 * tau);
     if (doubled_area == 0) continue;
+    std::array<double, 3> cotangent;  // of the corner opposite to the side c
+    double largest = 0;
     for (int c = 0; c < 3; ++c) {
       const Vec3& apex = films.position[v[(c + 2) % 3]];
-      const int a = v[c], b = v[(c + 1) % 3];
-      const double cotangent = dot(films.position[a] - apex, films.position[b] - apex) / doubled_area;
-      const double weight = 0.5 * std::clamp(cotangent, -largest_cotangent, largest_cotangent);
-      entries.emplace_back(a, a, weight);
-      entries.emplace_back(b, b, weight);
-      entries.emplace_back(a, b, -weight);
-      entries.emplace_back(b, a, -weight);
+      cotangent[c] =
+          dot(films.position[v[c]] - apex, films.position[v[(c + 1) % 3]] - apex) / doubled_area;
+      largest = std::max(largest, std::abs(cotangent[c]));
+    }
+    // All three by one factor: clipped one by one they would no longer be a positive matrix.
+    const double scale = largest > largest_cotangent ? largest_cotangent / largest : 1;
+    for (int c = 0; c < 3; ++c) {
+      const int i = v[c], j = v[(c + 1) % 3];
+      const double weight = 0.5 * scale * cotangent[c];
+      entries.emplace_back(i, i, weight);
+      entries.emplace_back(j, j, weight);
+      entries.emplace_back(i, j, -weight);
+      entries.emplace_back(j, i, -weight);
     }
   }
   for (int v = 0; v < n; ++v) entries.emplace_back(v, v, mass_over_tau(v));

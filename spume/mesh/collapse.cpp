@@ -180,8 +180,16 @@ bool Collapser::keeps_topology(const Candidate& c, int n_shared) {
   });
   if (n_common != n_shared) return false;
 
+  const auto n_films = [&](int a, int b) {
+    return std::count_if(star_[a].begin(), star_[a].end(), [&](int t) { return has(t, b); });
+  };
   for (int t : star_[c.v]) {
-    if (has(t, c.w)) continue;
+    if (has(t, c.w)) {
+      // A film one triangle wide between two borders: they would become one edge of four films.
+      for (int x : mesh_.triangle[t].vertex)
+        if (x != c.v && x != c.w && n_films(c.v, x) > 2 && n_films(c.w, x) > 2) return false;
+      continue;
+    }
     for (int s : star_[c.w]) {
       int n_same = 0;
       for (int x : mesh_.triangle[t].vertex) n_same += x != c.v && has(s, x);

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -130,6 +131,12 @@ Colour Painter::thickness_colour(const state::FilmFrame::Triangle& triangle,
   return viridis(place_in(range_, std::max(eta, range_.smallest)));
 }
 
+std::string time_text(double seconds) {
+  if (seconds == 0 || seconds >= 0.1) return fmt::format("t = {:.4g} s", seconds);
+  if (seconds >= 1e-4) return fmt::format("t = {:.4g} ms", 1e3 * seconds);
+  return fmt::format("t = {:.4g} µs", 1e6 * seconds);
+}
+
 void paint_rows(const Painter& painter, Image& image) {
   std::atomic<int> next_row = 0;
   const auto work = [&] {
@@ -176,8 +183,8 @@ Image render(const state::FilmFrame& frame, const RenderOptions& options) {
   if (options.style == Style::Thickness) draw_colour_bar(image, painter.range());
   if (options.label_time) {
     const double letter = std::max(9.0, options.height / 55.0);
-    draw_label(image, fmt::format("t = {:.4g} s", frame.time), 1.5 * letter, options.height - 1.8 * letter,
-               letter, from_screen(50, 58, 70));
+    draw_label(image, time_text(frame.time), 1.5 * letter, options.height - 1.8 * letter, letter,
+               from_screen(50, 58, 70));
   }
   return image;
 }

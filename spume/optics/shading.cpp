@@ -45,7 +45,7 @@ Surface painted_film(const Colour& paint, const Vec3& normal, const Vec3& direct
 Surface border_tube(const Vec3& normal, const Vec3& direction, const Camera& camera) {
   const Colour dark = from_screen(38, 50, 66);
   const double facing = std::abs(dot(normal, direction));
-  const double shine = 0.25 * window_light(normal, direction, camera);
+  const double shine = 0.15 * window_light(normal, direction, camera);
   return {(0.55 + 0.45 * facing) * dark + shine * Colour{1, 1, 1}, 1};
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using io::Column;
 
-constexpr std::array<Column, 16> history{{
+constexpr std::array<Column, 17> history{{
     {"step", "number of the step since the start of the run"},
     {"stage", "rearrange, drain or rupture"},
     {"time_s", "simulated time after the step"},
@@ -31,6 +31,7 @@ constexpr std::array<Column, 16> history{{
     {"junctions", "number of junctions, where four borders meet"},
     {"max_speed_m_s", "largest speed of the gas"},
     {"max_volume_error_rel", "largest |volume - target volume| / target volume of a bubble"},
+    {"correction_J", "change of the film energy 2 sigma A in this step by what is no motion: restored volumes, reconstruction"},
 }};
 
 constexpr std::array<Column, 13> bubbles{{
@@ -119,7 +120,8 @@ std::string explain_output() {
          explain("gas.pvd, gas/gas_NNNNNN.vti",
                  "The gas at every frame, where the case asks for it (output.gas).", io::gas_arrays()) +
          explain("checkpoint/", "The complete state, from which 'spume resume' goes on.", {}) +
-         explain("log.txt", "What the program said.", {});
+         explain("log.txt", "What the program said.", {}) +
+         explain("summary.txt", "How the run ended; there when it is finished.", {});
 }
 
 }  // namespace spume::simulation

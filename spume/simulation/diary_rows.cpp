@@ -128,7 +128,8 @@ Row history_row(const state::Foam& foam, const mesh::Topology& topology, const S
           topology.n_borders(),
           topology.n_junctions(),
           record.max_speed,
-          max_volume_error(foam)};
+          max_volume_error(foam),
+          record.correction};
 }
 
 std::vector<Row> bubble_rows(const state::Foam& foam, const mesh::Topology& topology,

@@ -9,6 +9,7 @@
 #include "spume/flow/surface_tension.hpp"
 #include "spume/interface/carry.hpp"
 #include "spume/mesh/measure.hpp"
+#include "spume/mesh/volume_constraint.hpp"
 #include "spume/simulation/equilibrate.hpp"
 #include "spume/simulation/equilibrium.hpp"
 #include "spume/simulation/film_update.hpp"
@@ -108,13 +109,21 @@ void rearrange(const grid::Grid& grid, const Case& run_case, RunState& run, Witn
     run.foam.time += limit.dt;
     run.rearrange.elapsed += limit.dt;
     ++run.rearrange.steps_since_reconstruction;
+    const double area_carried = mesh::film_area(run.foam.films);
+    if (run_case.rearrangement.conserve_volumes)
+      mesh::restore_volumes(run.foam.films, run.foam.phases.target_volume, 1, 0.1 * grid.h());
     if (needs_reconstruction(grid, run_case.rearrangement, run)) topology = reconstruct(grid, run_case, run, witness);
     transport::fill_young_films(run.foam.films, topology, run.foam.liquid, grid.h(), run_case.transport);
 
+    const double sigma = materials.film.surface_tension;
+    const double area = mesh::film_area(run.foam.films);
     const double kinetic_energy = flow::kinetic_energy(run.foam.gas, materials.gas.density);
-    equilibrium = measure_equilibrium(run.rearrange, window, kinetic_energy, mesh::film_area(run.foam.films),
-                                      materials.film.surface_tension);
-    witness.step(run, topology, {.dt = limit.dt, .kinetic_energy = kinetic_energy, .max_speed = flow::max_speed(run.foam.gas)},
+    equilibrium = measure_equilibrium(run.rearrange, window, kinetic_energy, area, sigma);
+    witness.step(run, topology,
+                 {.dt = limit.dt,
+                  .kinetic_energy = kinetic_energy,
+                  .max_speed = flow::max_speed(run.foam.gas),
+                  .correction = 2 * sigma * (area - area_carried)},
                  limit.reason);
     witness.frame_if_due(run, topology, run_case.output.rearrangement_interval);
     witness.checkpoint_if_due(run);

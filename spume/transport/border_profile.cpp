@@ -100,10 +100,11 @@ void BorderProfile::fit_border(const LiquidMesh& mesh, int border, std::span<con
         smooth ? std::min(std::abs(second[k]), std::abs(second[k + 1])) * piece.length * piece.length / 8 : 0;
     piece.least = std::min({piece.least, before, after});
     piece.most = std::max({piece.most, before, after});
+    const double smaller = std::min(piece.value0, piece.value1);
     if (second[k] < 0)
       piece.most = std::max(piece.most, std::max(piece.value0, piece.value1) + rise);
-    else
-      piece.least = std::max(0.0, std::min(piece.least, std::min(piece.value0, piece.value1) - rise));
+    else  // never to nothing: drainage divides by λ
+      piece.least = std::min(piece.least, std::max(0.5 * smaller, smaller - rise));
   }
 }
 

@@ -78,21 +78,49 @@ double borrow_from_rim(const LiquidMesh& mesh, int lamella, double wanted, std::
   return fraction * available;
 }
 
-double fill_lamella(const LiquidMesh& mesh, int lamella, std::span<const char> is_young, double h,
+/// Takes up to `wanted` from donors, each by its weight and only from what it has above `keep` a unit of measure: asked at
+/// every step, a donor would be emptied by fractions of all it has.
+double borrow(const Donors& donors, double keep, std::span<const double> measure, double wanted,
+              std::span<double> volume) {
+  const auto excess = [&](std::size_t n) {
+    const int d = donors.dof[n];
+    return donors.weight[n] * std::max(0.0, volume[d] - keep * measure[d]);
+  };
+  double available = 0;
+  for (std::size_t n = 0; n < donors.dof.size(); ++n) available += excess(n);
+  if (!(available > 0) || !(wanted > 0)) return 0;
+  const double fraction = std::min(1.0, wanted / available);
+  for (std::size_t n = 0; n < donors.dof.size(); ++n) volume[donors.dof[n]] -= fraction * excess(n);
+  return fraction * available;
+}
+
+/// Volume a unit of area of all grown lamellae [m].
+double grown_thickness(const LiquidMesh& mesh, std::span<const char> is_young, std::span<const double> volume) {
+  double sum = 0, area = 0;
+  for (std::size_t d = 0; d < volume.size(); ++d) {
+    if (is_young[mesh.lamella_of_dof[d]]) continue;
+    sum += volume[d];
+    area += mesh.dof_area[d];
+  }
+  return area > 0 ? sum / area : 0;
+}
+
+/// A film that is born is drawn out of the Plateau borders around it, not out of the thin rims of its neighbours: the
+/// floor refers to the mean of all grown films where that is thicker than the films nearby.
+double fill_lamella(const LiquidMesh& mesh, int lamella, std::span<const char> is_young, double grown, double h,
                     const TransportParameters& parameters, NewLiquid liquid) {
   std::vector<Vec3> points;
   for (int d : mesh.dofs_of_lamella[lamella]) points.push_back(mesh.film_position(d));
   const Donors donors = find_donors(mesh.film_bins, points, parameters.donor_radius * h, 3, Falloff::Linear,
                                     [&](int dof) { return !is_young[mesh.lamella_of_dof[dof]]; });
-  const double lent = donors.sum(liquid.film), lent_area = donors.sum(mesh.dof_area);
-  if (!(lent_area > 0)) return 0;
-  const Shortage shortage{mesh.dofs_of_lamella[lamella], mesh.dof_area, parameters.floor * lent / lent_area};
+  const double donor_area = donors.sum(mesh.dof_area);
+  if (!(donor_area > 0)) return 0;
+  const double mean = donors.sum(liquid.film) / donor_area;
+  const Shortage shortage{mesh.dofs_of_lamella[lamella], mesh.dof_area, parameters.floor * std::max(mean, grown)};
   const double wanted = shortage.sum(liquid.film);
   if (!(wanted > 0)) return 0;
-  const double from_rim = borrow_from_rim(mesh, lamella, wanted, liquid.border);
-  const double fraction = lent > 0 ? std::clamp((wanted - from_rim) / lent, 0.0, 0.5) : 0;
-  donors.take(fraction, liquid.film);
-  const double moved = from_rim + fraction * lent;
+  double moved = borrow_from_rim(mesh, lamella, wanted, liquid.border);
+  moved += borrow(donors, 0.5 * mean, mesh.dof_area, wanted - moved, liquid.film);
   shortage.fill(moved, liquid.film);
   return moved;
 }
@@ -112,26 +140,21 @@ double fill_border(const LiquidMesh& mesh, int border, std::span<const char> gro
                    const TransportParameters& parameters, std::span<double> volume) {
   std::vector<Vec3> points;
   for (int d : mesh.dofs_of_border[border]) points.push_back(mesh.border_position(d));
-  const Donors donors =
-      find_donors(mesh.border_bins, points, parameters.border_radius * h, 3, Falloff::Linear,
-                  [&](int dof) { return !growing[mesh.border_of_dof[dof]]; });
-  const double lent_length = donors.sum(mesh.dof_length);
-  if (!(lent_length > 0)) return 0;
-  const double mean = donors.sum(volume) / lent_length;
+  const auto donors_among = [&](const std::function<bool(int dof)>& accept) {
+    return find_donors(mesh.border_bins, points, parameters.border_radius * h, 3, Falloff::Linear, accept);
+  };
+  Donors donors = donors_among([&](int dof) { return !growing[mesh.border_of_dof[dof]]; });
+  if (donors.empty())  // in a small foam all borders around may be growing
+    donors = donors_among([&](int dof) { return mesh.border_of_dof[dof] != border; });
+  const double donor_length = donors.sum(mesh.dof_length);
+  if (!(donor_length > 0)) return 0;
+  const double mean = donors.sum(volume) / donor_length;
   const Shortage shortage{mesh.dofs_of_border[border], mesh.dof_length, parameters.floor * mean};
   const double wanted = shortage.sum(volume);
   if (!(wanted > 0)) return 0;
-  const auto excess = [&](std::size_t n) {
-    const int d = donors.dof[n];
-    return donors.weight[n] * std::max(0.0, volume[d] - 0.5 * mean * mesh.dof_length[d]);
-  };
-  double available = 0;
-  for (std::size_t n = 0; n < donors.dof.size(); ++n) available += excess(n);
-  if (!(available > 0)) return 0;
-  const double fraction = std::min(1.0, wanted / available);
-  for (std::size_t n = 0; n < donors.dof.size(); ++n) volume[donors.dof[n]] -= fraction * excess(n);
-  shortage.fill(fraction * available, volume);
-  return fraction * available;
+  const double moved = borrow(donors, 0.5 * mean, mesh.dof_length, wanted, volume);
+  shortage.fill(moved, volume);
+  return moved;
 }
 
 }  // namespace
@@ -190,8 +213,9 @@ std::vector<char> young_lamellae(const Links& film_links, const LiquidMesh& to,
 double fill_young(const LiquidMesh& mesh, std::span<const char> is_young, double h,
                   const TransportParameters& parameters, NewLiquid liquid) {
   double moved = 0;
+  const double grown = grown_thickness(mesh, is_young, liquid.film);
   for (int l = 0; l < mesh.topology.n_lamellae(); ++l)
-    if (is_young[l]) moved += fill_lamella(mesh, l, is_young, h, parameters, liquid);
+    if (is_young[l]) moved += fill_lamella(mesh, l, is_young, grown, h, parameters, liquid);
   const std::vector<char> growing = growing_borders(mesh, is_young, std::sqrt(parameters.small_area) * h);
   for (int b = 0; b < mesh.topology.n_borders(); ++b)
     if (growing[b]) moved += fill_border(mesh, b, growing, h, parameters, liquid.border);

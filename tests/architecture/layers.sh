@@ -32,7 +32,8 @@ for path in spume/*/; do
     continue
   fi
   while IFS= read -r hit; do
-    included=$(sed -E 's|.*"spume/([^/]+)/.*|\1|' <<<"$hit")
+    [[ $hit =~ \"spume/([^/]+)/ ]]
+    included=${BASH_REMATCH[1]}
     case " $folder ${allowed[$folder]} " in
       *" $included "*) ;;
       *) fail "${hit%%:*}: $folder/ must not include $included/" ;;

@@ -39,6 +39,9 @@ violate layers spume/flow/mpi.hpp '#include <mpi.h>\n'
 violate layers spume/flow/beside.hpp '#include "projection.hpp"\n'
 violate sources spume/flow/left.hpp '// TO''DO\n'
 violate sources spume/flow/long.hpp "$(printf '\\n%.0s' $(seq 1 501))"
+fresh_tree
+echo 'int guarded;' >"$tree/spume/flow/open.hpp"
+expect breaks sources "a header without #pragma once"
 violate paper_map spume/flow/second.hpp '/// Paper: Sec. 3, Eqs. (7) (8).\n'
 violate paper_map spume/flow/unmapped.hpp '/// Paper: Sec. 2, Eq. (3).\n'
 

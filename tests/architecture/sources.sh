@@ -19,13 +19,14 @@ while IFS= read -r folder; do
   fail "$folder: a folder is named after what it is about"
 done < <(find "${folders[@]}" -type d \( -iname 'util*' -o -iname misc -o -iname 'helper*' -o -iname common \))
 
+while read -r lines file; do
+  [ "$file" = total ] || [ "$lines" -le "$longest" ] ||
+    fail "$file: $lines lines; split it by subject (at most $longest)"
+done < <(find "${folders[@]}" \( -name '*.hpp' -o -name '*.cpp' \) -exec wc -l {} +)
+
 while IFS= read -r file; do
-  lines=$(wc -l <"$file")
-  [ "$lines" -le "$longest" ] || fail "$file: $lines lines; split it by subject (at most $longest)"
-  case "$file" in
-    *.hpp) head -n 1 "$file" | grep -q '^#pragma once$' || fail "$file: does not begin with #pragma once" ;;
-  esac
-done < <(find "${folders[@]}" -name '*.hpp' -o -name '*.cpp')
+  fail "$file: has no line #pragma once"
+done < <(grep -rL '^#pragma once$' "${folders[@]}" --include='*.hpp' || true)
 
 while IFS= read -r hit; do
   fail "${hit%%:*}: left-over: ${hit#*:}"
