@@ -34,7 +34,8 @@ test: configure
 	@ctest --test-dir $(BUILD) --output-on-failure --parallel 2
 
 bench: configure
-	@cmake --build $(BUILD) --parallel $(JOBS) --target bench
+	@cmake --build $(BUILD) --parallel $(JOBS)
+	@set -e; for bench in $(BUILD)/bench_*; do echo "$$bench"; $$bench; done
 
 format tidy: configure
 	@cmake --build $(BUILD) --target $@

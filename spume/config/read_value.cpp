@@ -108,7 +108,7 @@ Complaint assign(const Vector<Record>& kind, const toml::node& node, Record& rec
 template <class Record>
 Complaint assign(const OptionalVector<Record>& kind, const toml::node& node, Record& record) {
   Vec3 vector;
-  const Complaint complaint = assign_vector(any_number(), node, vector);
+  Complaint complaint = assign_vector(any_number(), node, vector);
   if (!complaint) kind.member(record) = vector;
   return complaint;
 }
@@ -158,7 +158,7 @@ Complaint assign(const Choice<Record>& kind, const toml::node& node, Record& rec
   std::vector<int> chosen;
   if (kind.count == 1) {
     chosen.resize(1);
-    if (const Complaint complaint = find_name(kind, node, chosen.front())) return complaint;
+    if (Complaint complaint = find_name(kind, node, chosen.front())) return complaint;
     kind.set(record, chosen);
     return {};
   }
@@ -171,7 +171,7 @@ Complaint assign(const Choice<Record>& kind, const toml::node& node, Record& rec
     return must_be(expected, node);
   for (const toml::node& element : *array) {
     int place = 0;
-    if (const Complaint complaint = find_name(kind, element, place)) return complaint;
+    if (Complaint complaint = find_name(kind, element, place)) return complaint;
     if (any_count && std::ranges::find(chosen, place) != chosen.end())
       return " names " + quoted(kind.names[place]) + " twice";
     chosen.push_back(place);

@@ -137,12 +137,10 @@ std::vector<char> enclosed_pockets(const std::vector<BubbleShape>& bubbles, cons
   while (!reached.empty()) {
     const Index3 c = reached.back();
     reached.pop_back();
-    reach(c.i - 1, c.j, c.k);
-    reach(c.i + 1, c.j, c.k);
-    reach(c.i, c.j - 1, c.k);
-    reach(c.i, c.j + 1, c.k);
-    reach(c.i, c.j, c.k - 1);
-    reach(c.i, c.j, c.k + 1);
+    // Corner neighbours count: a cusp between spheres is no pocket because its last cell touches the rest at a corner.
+    for (int dk = -1; dk <= 1; ++dk)
+      for (int dj = -1; dj <= 1; ++dj)
+        for (int di = -1; di <= 1; ++di) reach(c.i + di, c.j + dj, c.k + dk);
   }
   return is_pocket;
 }

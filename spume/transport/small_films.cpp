@@ -144,7 +144,9 @@ double fill_border(const LiquidMesh& mesh, int border, std::span<const char> gro
     return find_donors(mesh.border_bins, points, parameters.border_radius * h, 3, Falloff::Linear, accept);
   };
   Donors donors = donors_among([&](int dof) { return !growing[mesh.border_of_dof[dof]]; });
-  if (donors.empty())  // in a small foam all borders around may be growing
+  const bool is_empty = std::all_of(mesh.dofs_of_border[border].begin(), mesh.dofs_of_border[border].end(),
+                                    [&](int d) { return volume[d] <= 0; });
+  if (donors.empty() && is_empty)  // in a small foam all borders around may be growing
     donors = donors_among([&](int dof) { return mesh.border_of_dof[dof] != border; });
   const double donor_length = donors.sum(mesh.dof_length);
   if (!(donor_length > 0)) return 0;

@@ -133,7 +133,7 @@ TEST(Diary, HistoryTellsOfFilmsAndLiquid) {
   EXPECT_NEAR(number(row[7]), lambda * std::sqrt(3.0) * std::numbers::pi * radius, 0.001 * number(row[7]));
   EXPECT_EQ(number(row[8]), 0);
   EXPECT_NEAR(number(row[9]), eta, 1e-12 * eta);
-  EXPECT_EQ((std::vector<std::string>(row.begin() + 10, row.end() - 1)),
+  EXPECT_EQ((std::vector<std::string>(row.begin() + 10, row.begin() + 15)),
             (std::vector<std::string>{"2", "3", "1", "0", "4"}));
   EXPECT_GT(number(row[15]), 0);  // volumes within the triangles, a little less than within the spheres
   EXPECT_LT(number(row[15]), 0.01);
