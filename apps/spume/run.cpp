@@ -7,7 +7,7 @@
 #include "apps/spume/load_case.hpp"
 #include "apps/spume/log_file.hpp"
 #include "apps/spume/output_folder.hpp"
-#include "apps/spume/session_report.hpp"
+#include "apps/spume/run_report.hpp"
 #include "apps/spume/stop_signal.hpp"
 #include "spume/base/error.hpp"
 #include "spume/config/write_case.hpp"

@@ -176,6 +176,8 @@ Case parse_case(const std::string& text, const std::string& source, const std::v
   // What contradicts itself can only be told from values that are right.
   if (problems.none()) cross_check(run_case, entries, bubble_places, problems);
   problems.throw_if_any();
+  // One key says it for the steps and for the reconstructions between them.
+  run_case.reconstruct.conserve_volumes = run_case.rearrangement.conserve_volumes;
   return run_case;
 }
 

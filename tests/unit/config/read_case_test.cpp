@@ -105,6 +105,12 @@ TEST(ParseCase, lets_options_override_the_file_and_the_last_option_win) {
   EXPECT_EQ(run_case.materials.gas.density, 2);
 }
 
+TEST(ParseCase, takes_volume_conservation_for_steps_and_reconstructions_from_one_key) {
+  const auto run_case = parse_case(sample_case, "c.toml", {"rearrangement.conserve_volumes=false"});
+  EXPECT_FALSE(run_case.rearrangement.conserve_volumes);
+  EXPECT_FALSE(run_case.reconstruct.conserve_volumes);
+}
+
 TEST(ParseCase, makes_a_section_from_an_option) {
   const auto run_case = parse_case(sample_case, "c.toml", {"foam.cluster.count=3"});
   ASSERT_TRUE(run_case.foam.cluster.has_value());

@@ -1,4 +1,4 @@
-#include "apps/spume/session_report.hpp"
+#include "apps/spume/run_report.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
