@@ -1,5 +1,5 @@
 # One static library per folder: spume_library(mesh SOURCES a.cpp b.cpp LINKS spume::base).
-# The list of LINKS is the picture of the layers; tests/architecture checks the includes against it.
+# The list of LINKS is the picture of the layers, which tests/architecture/layers.sh holds the includes to.
 add_library(spume_flags INTERFACE)
 target_include_directories(spume_flags INTERFACE ${PROJECT_SOURCE_DIR})
 # GCC 12 raises -Wmaybe-uninitialized inside its own AVX-512 headers (its bug 105593).

@@ -10,7 +10,7 @@ packages=(
   libvtk9-dev libhdf5-openmpi-dev
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev
   libembree-dev libpng-dev
-  libgtest-dev libgmock-dev libbenchmark-dev
+  libgtest-dev libgmock-dev
 )
 
 if ! command -v dpkg-query >/dev/null; then

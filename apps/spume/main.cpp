@@ -58,8 +58,12 @@ ExitCode run_program(int argc, char** argv, const parallel::Communicator& commun
   } catch (const Interrupted& error) {
     say("", error);
     return interrupted;
-  } catch (const std::exception& error) {
+  } catch (const NumericalError& error) {
     say("failed: ", error);
+    return numerical_failure;
+  } catch (const std::exception& error) {  // no agreed failure of all ranks: this one may be alone
+    std::fprintf(stderr, "failed: %s\n", error.what());
+    if (communicator.size() > 1) communicator.abort(numerical_failure);
     return numerical_failure;
   }
 }

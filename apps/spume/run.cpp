@@ -29,7 +29,9 @@ void run(const parallel::Communicator& communicator, const Request& request) {
   communicator.on_root([&] { check_output_folder(folder, request.file); });
 
   // A folder that holds a run is going to be refused unless --force is given: its log stays as it is.
-  const bool accepted = request.force || !holds_run(folder);
+  bool refused_here = false;
+  communicator.on_root([&] { refused_here = !request.force && holds_run(folder); });
+  const bool accepted = !communicator.any(refused_here);
   std::optional<LogFile> log;
   if (accepted) {
     log.emplace(communicator, folder, LogFile::Mode::New);

@@ -113,11 +113,9 @@ std::vector<FoamEstimate::Pocket> connected_pockets(std::vector<char> marked, co
         for (std::size_t next = 0; next < reached.size(); ++next) {
           const Index3 c = reached[next];
           sum += box.lower + h * Vec3{c.i + 0.5, c.j + 0.5, c.k + 0.5};
-          for (const int step : {-1, 1}) {
-            reach(c.i + step, c.j, c.k);
-            reach(c.i, c.j + step, c.k);
-            reach(c.i, c.j, c.k + step);
-          }
+          for (int dk = -1; dk <= 1; ++dk)
+            for (int dj = -1; dj <= 1; ++dj)
+              for (int di = -1; di <= 1; ++di) reach(c.i + di, c.j + dj, c.k + dk);
         }
         const double n_cells = static_cast<double>(reached.size());
         pockets.push_back({sum / n_cells, n_cells * h * h * h});

@@ -152,7 +152,7 @@ Keys rearrangement_keys() {
        Number<Case>{[](Case& c) -> double& { return c.rearrangement.equilibrium_tolerance; }}, "", "",
        "distance from equilibrium at which a stage ends"},
       {"rearrangement.cfl",
-       Number<Case>{[](Case& c) -> double& { return c.rearrangement.cfl; }, positive_up_to(1)}, "", "",
+       Number<Case>{[](Case& c) -> double& { return c.rearrangement.cfl; }, positive_up_to(0.5)}, "", "",
        "cells that the gas may cross in one step"},
       {"rearrangement.reconstruction_interval",
        WholeNumber<Case>{[](Case& c) -> int& { return c.rearrangement.reconstruction_interval; }, 1}, "steps",

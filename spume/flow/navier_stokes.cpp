@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "spume/base/contract.hpp"
 #include "spume/base/error.hpp"
@@ -88,7 +89,9 @@ void NavierStokes::step(state::GasFlow& flow, const grid::VectorField& body_forc
   }
   now.projection.filter(flow.velocity);  // of the divergence that (8), of the increment, cannot see
   if (!std::isfinite(kinetic_energy(flow, now.gas.density)))
-    throw NumericalError("gas flow: the velocity is not finite after a step of " + std::to_string(dt) + " s");
+    throw NumericalError(
+        (std::ostringstream() << "gas flow: the velocity is not finite after a step of " << dt << " s")
+            .str());
 }
 
 StepLimit NavierStokes::advection_limit(const state::GasFlow& flow, double cfl) const {
@@ -107,9 +110,8 @@ StepLimit capillary_limit(double h, const state::Materials& materials, double fa
 double kinetic_energy(const state::GasFlow& flow, double density) {
   double sum_of_squares = 0;
   for (const grid::Field& component : flow.velocity.components)
-    for (const double u : component.values()) sum_of_squares += u * u;
-  const grid::Grid& grid = flow.pressure.grid();
-  return 0.5 * density * std::pow(grid.h(), 3) * grid.communicator().sum(sum_of_squares);
+    sum_of_squares += grid::sum_of_squares(component);
+  return 0.5 * density * std::pow(flow.pressure.grid().h(), 3) * sum_of_squares;
 }
 
 double max_speed(const state::GasFlow& flow) {

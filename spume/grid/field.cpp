@@ -128,22 +128,36 @@ void scatter(std::span<const double> whole, Field& f) {
               f.values().begin());
 }
 
-double sum(const Field& f) {
+namespace {
+
+/// Σ of term(value) over all cells: one number a layer, added in the order of the layers, so that it is the
+/// same to the last bit on any number of ranks.
+template <class Term>
+double sum_by_layers(const Field& f, Term&& term) {
   const Grid& grid = f.grid();
   const Index3 n = grid.cells();
-  // One number a layer, added in the order of the layers: the same to the last bit on any number of ranks.
   std::vector<double> of_layer(n.k, 0.0);
   const double* row = f.values().data();
   for (int k = grid.z_begin(); k < grid.z_end(); ++k)
     for (int j = 0; j < n.j; ++j, row += n.i) {
       double of_row = 0;
-      for (int i = 0; i < n.i; ++i) of_row += row[i];
+      for (int i = 0; i < n.i; ++i) of_row += term(row[i]);
       of_layer[k] += of_row;
     }
   grid.communicator().sum(of_layer);
   double total = 0;
   for (const double value : of_layer) total += value;
   return total;
+}
+
+}  // namespace
+
+double sum(const Field& f) {
+  return sum_by_layers(f, [](double value) { return value; });
+}
+
+double sum_of_squares(const Field& f) {
+  return sum_by_layers(f, [](double value) { return value * value; });
 }
 
 double max_abs(const Field& f) {

@@ -107,6 +107,8 @@ void scatter(std::span<const double> whole, Field& f);
 
 /// Sum over all cells, bitwise the same on every rank and on any number of ranks. Collective.
 double sum(const Field& f);
+/// Σ of squares over all cells, likewise. Collective.
+double sum_of_squares(const Field& f);
 /// Largest |value|; infinite where a value is not a number, so that a lost computation cannot pass for a
 /// small one. Collective.
 double max_abs(const Field& f);

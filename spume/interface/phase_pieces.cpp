@@ -237,22 +237,30 @@ bool separate_pieces(PhasePotentials& potentials, const Winners& winners, state:
 void settle_new_phases(const mesh::FilmMesh& films, state::Phases& phases, std::vector<PhaseChange>& changes,
                        std::size_t first) {
   const std::vector<double> volume = mesh::phase_volumes(films, phases.count());
+  // A piece that split off may itself have split in a later round: a family is all that came of one phase
+  // that was there before, or of one pocket.
+  std::map<mesh::Phase, mesh::Phase> ancestor;
   std::map<mesh::Phase, double> family_volume, family_target;
-  const auto is_split = [](const PhaseChange& c) { return c.kind == PhaseChange::Kind::Split; };
-  for (std::size_t n = first; n < changes.size(); ++n) {
-    const PhaseChange& c = changes[n];
-    if (!is_split(c)) continue;
-    if (family_volume.emplace(c.phase, volume[c.phase]).second)
-      family_target[c.phase] = phases.target_volume[c.phase];
-    family_volume[c.phase] += volume[c.other];
-  }
+  const auto root_of = [&](mesh::Phase p) {
+    const auto found = ancestor.find(p);
+    return found == ancestor.end() ? p : found->second;
+  };
   for (std::size_t n = first; n < changes.size(); ++n) {
     PhaseChange& c = changes[n];
     if (c.kind == PhaseChange::Kind::Pocket) phases.target_volume[c.other] = c.volume = volume[c.other];
-    if (!is_split(c)) continue;
-    const double per_volume = family_target[c.phase] / family_volume[c.phase];
-    phases.target_volume[c.other] = c.volume = per_volume * volume[c.other];
-    phases.target_volume[c.phase] -= c.volume;
+    if (c.kind != PhaseChange::Kind::Split) continue;
+    const mesh::Phase root = root_of(c.phase);
+    if (family_volume.emplace(root, volume[root]).second) family_target[root] = phases.target_volume[root];
+    ancestor[c.other] = root;
+    family_volume[root] += volume[c.other];
+  }
+  for (std::size_t n = first; n < changes.size(); ++n) {
+    PhaseChange& c = changes[n];
+    if (c.kind != PhaseChange::Kind::Split) continue;
+    const mesh::Phase root = root_of(c.phase);
+    c.volume = family_target[root] / family_volume[root] * volume[c.other];
+    phases.target_volume[c.other] = c.volume;
+    phases.target_volume[root] -= c.volume;
   }
 }
 

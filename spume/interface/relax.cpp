@@ -16,8 +16,8 @@ namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// M/τ + L: lumped areas over τ, and the cotangent matrix of all films. A cotangent beyond ±20 belongs to a sliver that
-/// would otherwise rule the whole step; it is clipped.
+/// M/τ + L: lumped areas over τ, and the cotangent matrix of all films. The cotangents of a sliver would
+/// otherwise rule the whole step; they are scaled down together until none exceeds 20.
 SparseMatrix implicit_matrix(const mesh::FilmMesh& films, double tau, Eigen::VectorXd& mass_over_tau) {
   constexpr double largest_cotangent = 20;
   const int n = films.n_vertices();
@@ -33,8 +33,7 @@ SparseMatrix implicit_matrix(const mesh::FilmMesh& films, double tau, Eigen::Vec
     double largest = 0;
     for (int c = 0; c < 3; ++c) {
       const Vec3& apex = films.position[v[(c + 2) % 3]];
-      cotangent[c] =
-          dot(films.position[v[c]] - apex, films.position[v[(c + 1) % 3]] - apex) / doubled_area;
+      cotangent[c] = dot(films.position[v[c]] - apex, films.position[v[(c + 1) % 3]] - apex) / doubled_area;
       largest = std::max(largest, std::abs(cotangent[c]));
     }
     // All three by one factor: clipped one by one they would no longer be a positive matrix.
@@ -60,7 +59,8 @@ void solve_for_positions(const SparseMatrix& matrix, const Eigen::VectorXd& mass
   solver.setTolerance(1e-9);
   solver.setMaxIterations(2000);
   const int n = films.n_vertices();
-  const Vec3 origin = films.position.front();  // differences keep the digits that positions in a large box would lose
+  const Vec3 origin =
+      films.position.front();  // differences keep the digits that positions in a large box would lose
   for (int axis = 0; axis < 3; ++axis) {
     Eigen::VectorXd old_position(n), right(n);
     for (int v = 0; v < n; ++v) {
@@ -68,8 +68,9 @@ void solve_for_positions(const SparseMatrix& matrix, const Eigen::VectorXd& mass
       right(v) = mass_over_tau(v) * old_position(v) + push[v][axis];
     }
     const Eigen::VectorXd new_position = solver.solveWithGuess(right, old_position);
-    if (!new_position.allFinite())
-      throw NumericalError("relaxation of the films failed: the positions are not finite any more");
+    if (solver.info() != Eigen::Success || !new_position.allFinite())
+      throw NumericalError(
+          "relaxation of the films failed: the linear system of a step has no usable solution");
     for (int v = 0; v < n; ++v) films.position[v][axis] = new_position(v) + origin[axis];
   }
 }

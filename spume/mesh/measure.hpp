@@ -10,7 +10,8 @@ namespace spume::mesh {
 
 /// Σ of triangle areas, every film once [m²].
 double film_area(const FilmMesh& mesh);
-/// Volume of every phase by the divergence theorem [m³], indexed by phase; the entry of the outside is minus the rest.
+/// Volume of every phase by the divergence theorem [m³], indexed by phase; the entry of the outside is minus
+/// the rest.
 std::vector<double> phase_volumes(const FilmMesh& mesh, int n_phases);
 /// Area of the films of each phase [m²], indexed by phase.
 std::vector<double> phase_areas(const FilmMesh& mesh, int n_phases);
@@ -28,14 +29,17 @@ std::vector<Vec3> film_dof_normals(const FilmMesh& mesh, const Topology& topolog
 
 /// −∂A/∂x_v of the whole film area [m]: times the film tension 2σ this is the force on the vertex.
 std::vector<Vec3> area_descent(const FilmMesh& mesh);
-/// Σ over the triangles at each vertex of (value_a − value_b) A n/3 = Σ_i value_i ∂V_i/∂x_v, for one value per phase.
+/// Σ over the triangles at each vertex of (value_a − value_b) A n/3 = Σ_i value_i ∂V_i/∂x_v, for one value
+/// per phase.
 std::vector<Vec3> weighted_volume_gradient(const FilmMesh& mesh, std::span<const double> value_of_phase);
 
-/// The pressures P_i [Pa for forces in N], P_0 = 0, that take the most out of vertex forces F_v as Σ_i P_i ∂V_i/∂x_v:
+/// The pressures P_i [Pa for forces in N], P_0 = 0, that take the most out of vertex forces F_v as Σ_i P_i
+/// ∂V_i/∂x_v:
 ///   Σ_v N_i·Σ_j P_j ∂V_j/∂x_v = −Σ_v N_i·F_v   for every bubble i, over film vertices,
-/// N_i the unit normal out of bubble i. A weighted graph Laplacian of film areas. In equilibrium F + Σ P ∂V/∂x = 0.
-/// A group of phases that no film connects to the outside keeps pressure zero at its lowest phase.
-std::vector<double> film_pressures(const FilmMesh& mesh, const Topology& topology, std::span<const Vec3> force,
-                                   int n_phases);
+/// N_i the unit normal out of bubble i. A weighted graph Laplacian of film areas. In equilibrium F + Σ P
+/// ∂V/∂x = 0. A group of phases that no film connects to the outside gets pressures of mean zero; a bubble
+/// without a vertex inside a film gets pressure 0.
+std::vector<double> film_pressures(const FilmMesh& mesh, const Topology& topology,
+                                   std::span<const Vec3> force, int n_phases);
 
 }  // namespace spume::mesh

@@ -15,7 +15,8 @@ class BorderDistance {
   BorderDistance(const mesh::FilmMesh& films, double reach) : reach_(reach) {
     const mesh::Topology topology = mesh::build_topology(films);
     for (int v = 0; v < films.n_vertices(); ++v)
-      if (topology.vertex_kind[v] != mesh::VertexKind::Film) points_.push_back({bin_of(films.position[v]), films.position[v]});
+      if (topology.vertex_kind[v] != mesh::VertexKind::Film)
+        points_.push_back({bin_of(films.position[v]), films.position[v]});
     std::sort(points_.begin(), points_.end(), [](const Point& a, const Point& b) { return a.bin < b.bin; });
   }
 
@@ -61,7 +62,6 @@ MeshingReport improve(mesh::FilmMesh& films, const mesh::Projection& project, do
   };
 
   MeshingReport report;
-  report.before = mesh::measure_quality(films, mesh::build_topology(films));
   mesh::RemeshParameters remeshing;
   remeshing.split_above = 1.4;
   remeshing.smoothing_sweeps = parameters.sweeps;

@@ -11,14 +11,14 @@ namespace spume::meshing {
 
 /// The mesh for drainage (paper, Sec. 3.3.1): nearly equilateral triangles, finer towards Plateau borders.
 struct MeshingParameters {
-  double edge = 1.0;              ///< target edge in the middle of films [h]
-  double edge_at_borders = 0.6;   ///< target edge at Plateau borders [h]
-  double grading = 0.3;           ///< growth of the target a unit of distance from the border
+  double edge = 1.0;             ///< target edge in the middle of films [h]
+  double edge_at_borders = 0.6;  ///< target edge at Plateau borders [h]
+  double grading = 0.3;          ///< growth of the target a unit of distance from the border
   int sweeps = 20;
   double smallest_angle_degrees = 15;  ///< wanted; the report says what was reached
 };
 struct MeshingReport {
-  mesh::Quality before, after;
+  mesh::Quality after;
   mesh::RemeshReport remesh;
 };
 

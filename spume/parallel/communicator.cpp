@@ -1,5 +1,6 @@
 #include "spume/parallel/communicator.hpp"
 
+#include <cstdlib>
 #include <limits>
 
 #include "spume/base/contract.hpp"
@@ -60,6 +61,11 @@ void Communicator::broadcast(std::string& text, int root) const {
   MPI_Bcast(&length, 1, MPI_INT, root, comm_);
   text.resize(static_cast<std::size_t>(length));
   MPI_Bcast(text.data(), length, MPI_CHAR, root, comm_);
+}
+
+void Communicator::abort(int exit_code) const {
+  MPI_Abort(comm_, exit_code);
+  std::abort();
 }
 
 void Communicator::barrier() const {

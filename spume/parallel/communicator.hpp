@@ -31,6 +31,9 @@ class Communicator {
   void broadcast(std::span<double> values, int root = 0) const;
   void broadcast(std::string& text, int root = 0) const;
   void barrier() const;
+  /// Ends the program on every rank at once, for failures that one rank alone has met: the others may be
+  /// waiting for it.
+  [[noreturn]] void abort(int exit_code) const;
 
   /// Runs `work` on rank 0 only; an exception there is thrown on every rank with the same type and message
   /// (InputError, NumericalError, Interrupted, or std::runtime_error for every other), so that all ranks fail

@@ -18,7 +18,7 @@ struct RuptureReport {
   double sprayed;   ///< [m³]
 };
 
-/// Removes every lamella between the phases of `lamella` and merges them (paper, Sec. 3.4 steps i–iii). The
+/// Removes every lamella between the phases a and b and merges them (paper, Sec. 3.4 steps i–iii). The
 /// result is again a conforming film mesh with its liquid, nothing lost; reconstruct next.
 ///   (i)  liquid of the torn lamellae goes to the borders around them, uniformly by length;
 ///   (ii) those borders are ridges in one film now: what they hold is injected into that film around each

@@ -20,55 +20,57 @@ namespace spume::simulation {
 
 /// A bubble of the initial foam. Overlaps are shared along the power plane.
 struct BubbleShape {
-  Vec3 center;      ///< [m]
-  Vec3 semi_axes;   ///< [m]; all equal for a sphere
+  Vec3 center;     ///< [m]
+  Vec3 semi_axes;  ///< [m]; all equal for a sphere
 };
 
 /// A seeded cluster of bubbles that touch, without enclosed pockets of the outside.
 struct ClusterShape {
   int count = 8;
-  double mean_diameter = 3e-3;     ///< [m]
-  double spread = 0.2;             ///< relative standard deviation of the diameters
+  double mean_diameter = 3e-3;  ///< [m]
+  double spread = 0.2;          ///< relative standard deviation of the diameters
   std::uint64_t seed = 1;
-  std::optional<Vec3> center;      ///< [m]; the middle of the box when not given
+  std::optional<Vec3> center;  ///< [m]; the middle of the box when not given
 };
 
 /// Key section [foam].
 struct InitialFoam {
-  double lamella_half_thickness = 5e-6;                ///< η everywhere at the start [m]
-  double border_area = 1e-9;                           ///< λ everywhere at the start [m²]
-  bool equilibrate = false;                            ///< relax to equilibrium before time 0
-  std::vector<std::array<int, 2>> remove_lamella;      ///< pairs of phases whose films are torn at time 0
+  double lamella_half_thickness = 5e-6;            ///< η everywhere at the start [m]
+  double border_area = 1e-9;                       ///< λ everywhere at the start [m²]
+  bool equilibrate = false;                        ///< relax to equilibrium before time 0
+  std::vector<std::array<int, 2>> remove_lamella;  ///< pairs of phases whose films are torn at time 0
   std::vector<BubbleShape> bubble;
   std::optional<ClusterShape> cluster;
 };
 
 /// Key section [rearrangement].
 struct RearrangementParameters {
-  double max_time = 0.1;                    ///< of one rearrangement stage [s]
-  double equilibrium_tolerance = 1e-3;      ///< see simulation/equilibrium.hpp
+  double max_time = 0.1;                ///< of one rearrangement stage [s]
+  double equilibrium_tolerance = 1e-3;  ///< see simulation/equilibrium.hpp
   double cfl = 0.4;
-  int reconstruction_interval = 50;         ///< steps, while the films move
-  double reconstruction_displacement = 1;   ///< of a vertex since the last reconstruction [h]
+  int reconstruction_interval = 50;        ///< steps, while the films move
+  double reconstruction_displacement = 1;  ///< of a vertex since the last reconstruction [h]
   bool conserve_volumes = true;
   enum class Dynamics { Gas, Quasistatic } dynamics = Dynamics::Gas;
-  double capillary_factor = 0.8;            ///< C in Δt ≤ C sqrt(ρ h³/2σ)
+  double capillary_factor = 0.8;  ///< C in Δt ≤ C sqrt(ρ h³/2σ)
 };
 
 enum class Stage { Rearrange, Drain, Rupture };
+/// "rearrange", "drain" or "rupture".
+const char* name(Stage stage);
 
 /// Key section [cycle].
 struct CycleParameters {
-  double end_time = 1e9;      ///< [s]
+  double end_time = 1e9;  ///< [s]
   int max_ruptures = 1000000;
   std::vector<Stage> stages{Stage::Rearrange, Stage::Drain, Stage::Rupture};
 };
 
 /// Key section [output].
 struct OutputParameters {
-  double rearrangement_interval = 1e-3;   ///< between frames [s]
-  double drainage_interval = 1;           ///< between frames [s]
-  bool gas = false;                       ///< write gas.pvd too
+  double rearrangement_interval = 1e-3;                                          ///< between frames [s]
+  double drainage_interval = 1;                                                  ///< between frames [s]
+  bool gas = false;                                                              ///< write gas.pvd too
   std::vector<std::string> fields{"velocity", "pressure", "phase", "distance"};  ///< of gas.pvd
 };
 

@@ -1,12 +1,9 @@
 #include "spume/simulation/cluster.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "spume/base/error.hpp"
 #include "spume/base/random.hpp"
 
 namespace spume::simulation {
@@ -78,7 +75,8 @@ double union_volume(const std::vector<BubbleShape>& bubbles) {
   for (int k = 0; k < box.cells.k; ++k)
     for (int j = 0; j < box.cells.j; ++j)
       for (int i = 0; i < box.cells.i; ++i, ++cell)
-        n_inside += pocket[cell] || inside_any(bubbles, box.lower + h * Vec3{i + 0.5, j + 0.5, k + 0.5}, radius);
+        n_inside +=
+            pocket[cell] || inside_any(bubbles, box.lower + h * Vec3{i + 0.5, j + 0.5, k + 0.5}, radius);
   return static_cast<double>(n_inside) * h * h * h;
 }
 
@@ -92,7 +90,8 @@ double power_potential(const BubbleShape& bubble, const Vec3& x, double mean_rad
   const Vec3 d = x - bubble.center;
   const double radius = equivalent_radius(bubble);
   double s = 0;
-  for (int axis = 0; axis < 3; ++axis) s += d[axis] * d[axis] / (bubble.semi_axes[axis] * bubble.semi_axes[axis]);
+  for (int axis = 0; axis < 3; ++axis)
+    s += d[axis] * d[axis] / (bubble.semi_axes[axis] * bubble.semi_axes[axis]);
   return radius * radius / (2 * mean_radius) * (1 - s);
 }
 
@@ -121,7 +120,8 @@ std::vector<char> enclosed_pockets(const std::vector<BubbleShape>& bubbles, cons
   for (int k = 0; k < n.k; ++k)
     for (int j = 0; j < n.j; ++j)
       for (int i = 0; i < n.i; ++i)
-        is_pocket[index(i, j, k)] = !inside_any(bubbles, box.lower + h * Vec3{i + 0.5, j + 0.5, k + 0.5}, radius);
+        is_pocket[index(i, j, k)] =
+            !inside_any(bubbles, box.lower + h * Vec3{i + 0.5, j + 0.5, k + 0.5}, radius);
 
   // Whatever can be reached from the edge of the box is no pocket.
   std::vector<Index3> reached;
@@ -137,7 +137,8 @@ std::vector<char> enclosed_pockets(const std::vector<BubbleShape>& bubbles, cons
   while (!reached.empty()) {
     const Index3 c = reached.back();
     reached.pop_back();
-    // Corner neighbours count: a cusp between spheres is no pocket because its last cell touches the rest at a corner.
+    // Corner neighbours count: a cusp between spheres is no pocket because its last cell touches the rest at
+    // a corner.
     for (int dk = -1; dk <= 1; ++dk)
       for (int dj = -1; dj <= 1; ++dj)
         for (int di = -1; di <= 1; ++di) reach(c.i + di, c.j + dj, c.k + dk);

@@ -15,12 +15,6 @@ bool includes(const Case& run_case, Stage stage) {
   return std::find(stages.begin(), stages.end(), stage) != stages.end();
 }
 
-bool is_over(const Case& run_case, const RunState& run) {
-  const int bubbles = run.foam.phases.n_bubbles();
-  const bool collapsed = bubbles == 0 || (bubbles == 1 && run.bubbles_at_start > 1);
-  return collapsed || run.ruptures >= run_case.cycle.max_ruptures || run.foam.time >= run_case.cycle.end_time;
-}
-
 void enter(Stage stage, RunState& run, Witness& witness) {
   run.stage = stage;
   run.rearrange = {};
@@ -29,11 +23,18 @@ void enter(Stage stage, RunState& run, Witness& witness) {
 
 }  // namespace
 
+bool is_over(const Case& run_case, const RunState& run) {
+  const int bubbles = run.foam.phases.n_bubbles();
+  const bool collapsed = bubbles == 0 || (bubbles == 1 && run.bubbles_at_start > 1);
+  return collapsed || run.ruptures >= run_case.cycle.max_ruptures || run.foam.time >= run_case.cycle.end_time;
+}
+
 void cycle(const grid::Grid& grid, const Case& run_case, RunState& run, Witness& witness) {
-  for (;;) {
+  while (run.foam.phases.n_bubbles() > 0) {
     if (run.stage == Stage::Rearrange) {
       if (includes(run_case, Stage::Rearrange)) rearrange(grid, run_case, run, witness);
-      if (is_over(run_case, run)) return;
+      const bool nothing_follows = !includes(run_case, Stage::Drain) && !includes(run_case, Stage::Rupture);
+      if (is_over(run_case, run) || nothing_follows) return;
       enter(Stage::Drain, run, witness);
     }
     const auto weakest = includes(run_case, Stage::Drain)     ? drain_films(grid, run_case, run, witness)
@@ -44,10 +45,9 @@ void cycle(const grid::Grid& grid, const Case& run_case, RunState& run, Witness&
     const auto update = tear(grid, run_case, weakest->phase_a, weakest->phase_b, run.foam);
     ++run.ruptures;
     witness.events(update.events);
-    witness.frame(run, update.topology);
-    run.next_frame = run.foam.time;
+    witness.step(run, update.topology, {.correction = update.energy_correction}, "rupture");
+    witness.frame(run, update.topology, run_case.output.rearrangement_interval);
     enter(Stage::Rearrange, run, witness);
-    if (run.foam.phases.n_bubbles() == 0) return;
   }
 }
 

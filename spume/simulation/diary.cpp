@@ -35,10 +35,10 @@ void prepare_frames(const fs::path& folder, const std::string& series, const std
   for (const auto& entry : fs::directory_iterator(folder / series)) {
     const std::string name = entry.path().filename().string();
     const std::size_t start = series.size() + 1;
-    if (name.rfind(series + "_", 0) != 0) continue;
+    if (name.rfind(series + "_", 0) != 0 || !entry.is_regular_file()) continue;
     int frame = -1;
     std::from_chars(name.data() + start, name.data() + name.size(), frame);
-    if (frame >= n_frames || name.substr(name.find('.')) != "." + ending) stale.push_back(entry.path());
+    if (frame >= n_frames || entry.path().extension() != "." + ending) stale.push_back(entry.path());
   }
   for (const auto& path : stale) fs::remove(path);
 }

@@ -31,7 +31,9 @@ constexpr std::array<Column, 17> history{{
     {"junctions", "number of junctions, where four borders meet"},
     {"max_speed_m_s", "largest speed of the gas"},
     {"max_volume_error_rel", "largest |volume - target volume| / target volume of a bubble"},
-    {"correction_J", "change of the film energy 2 sigma A in this step by what is no motion: restored volumes, reconstruction"},
+    {"correction_J",
+     "change of the film energy 2 sigma A in this step by what is no motion: restored volumes, "
+     "reconstruction"},
 }};
 
 constexpr std::array<Column, 13> bubbles{{

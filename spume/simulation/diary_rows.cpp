@@ -13,18 +13,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::string word_of(Stage stage) {
-  switch (stage) {
-    case Stage::Rearrange:
-      return "rearrange";
-    case Stage::Drain:
-      return "drain";
-    case Stage::Rupture:
-      return "rupture";
-  }
-  return "";
-}
-
 /// Largest |V − V_target| / V_target of a bubble.
 double max_volume_error(const state::Foam& foam) {
   const auto volume = mesh::phase_volumes(foam.films, foam.phases.count());
@@ -114,7 +102,7 @@ Row history_row(const state::Foam& foam, const mesh::Topology& topology, const S
   const double liquid = foam.liquid.total() + foam.liquid.sprayed;
   const double error = initial_liquid > 0 ? (liquid - initial_liquid) / initial_liquid : 0;
   return {record.step,
-          word_of(record.stage),
+          std::string(name(record.stage)),
           foam.time,
           record.dt,
           mesh::film_area(foam.films),

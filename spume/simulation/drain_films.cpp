@@ -7,6 +7,7 @@
 #include "spume/base/error.hpp"
 #include "spume/interface/reconstruct.hpp"
 #include "spume/mesh/measure.hpp"
+#include "spume/mesh/volume_constraint.hpp"
 #include "spume/meshing/mesh_films.hpp"
 #include "spume/simulation/film_update.hpp"
 
@@ -22,25 +23,35 @@ double smallest_area(const grid::Grid& grid) {
 
 const char* name(mesh::VertexKind kind) {
   switch (kind) {
-    case mesh::VertexKind::Film: return "inside the film";
-    case mesh::VertexKind::Border: return "at a Plateau border";
-    case mesh::VertexKind::Junction: return "at a junction";
+    case mesh::VertexKind::Film:
+      return "inside the film";
+    case mesh::VertexKind::Border:
+      return "at a Plateau border";
+    case mesh::VertexKind::Junction:
+      return "at a junction";
   }
   return "";
 }
 
 /// Reconstructs the films once more, for a projection onto them, and gives them the mesh for drainage.
 void mesh_films(const grid::Grid& grid, const Case& run_case, RunState& run, Witness& witness) {
+  const double old_area = mesh::film_area(run.foam.films);
   FilmUpdate update = reconstruct_films(grid, run_case, run.foam);
   witness.events(update.events);
   mesh::FilmMesh films = run.foam.films;
   const auto report =
       meshing::improve(films, interface::projection_onto(update.potentials), grid.h(), run_case.meshing);
-  replace_films(run_case, grid.h(), std::move(films), run.foam, update.transfer);
-  if (report.after.smallest_angle_degrees < run_case.meshing.smallest_angle_degrees || report.after.n_inverted > 0)
+  if (run_case.rearrangement.conserve_volumes)
+    mesh::restore_volumes(films, run.foam.phases.target_volume, 3, 0.1 * grid.h());
+  const auto topology = replace_films(run_case, grid.h(), std::move(films), run.foam, update.transfer);
+  const double correction =
+      2 * run_case.materials.film.surface_tension * (mesh::film_area(run.foam.films) - old_area);
+  witness.step(run, topology, {.correction = correction}, "meshing");
+  if (report.after.smallest_angle_degrees < run_case.meshing.smallest_angle_degrees ||
+      report.after.n_inverted > 0)
     witness.event(run, "poor mesh",
-                  fmt::format("smallest angle {:.3g} degrees; {} inverted triangles", report.after.smallest_angle_degrees,
-                              report.after.n_inverted));
+                  fmt::format("smallest angle {:.3g} degrees; {} inverted triangles",
+                              report.after.smallest_angle_degrees, report.after.n_inverted));
 }
 
 std::optional<Weakest> weakest_of(const mesh::Topology& topology, const state::ThinPoint& point) {
@@ -50,9 +61,10 @@ std::optional<Weakest> weakest_of(const mesh::Topology& topology, const state::T
 }
 
 std::string describe(const drainage::DrainageOutcome& outcome, const Weakest& weakest) {
-  return fmt::format("after {:.6g} s in {} steps ({} rejected); thinnest {:.4g} m {} of film {}|{}; ledger off by {:.2g}",
-                     outcome.elapsed, outcome.n_steps, outcome.n_rejected, weakest.point.half_thickness,
-                     name(weakest.point.kind), weakest.phase_a, weakest.phase_b, outcome.ledger_error);
+  return fmt::format(
+      "after {:.6g} s in {} steps ({} rejected); thinnest {:.4g} m {} of film {}|{}; ledger off by {:.2g}",
+      outcome.elapsed, outcome.n_steps, outcome.n_rejected, weakest.point.half_thickness,
+      name(weakest.point.kind), weakest.phase_a, weakest.phase_b, outcome.ledger_error);
 }
 
 }  // namespace
@@ -83,13 +95,15 @@ state::FilmNetwork network_of(const state::Foam& foam) {
 void store(const state::FilmNetwork& network, state::FilmLiquid& liquid) {
   const auto& topology = network.topology;
   const auto area = mesh::film_dof_areas(network.mesh, topology);
-  for (std::size_t d = 0; d < area.size(); ++d) liquid.lamella_volume[d] = 2 * network.half_thickness[d] * area[d];
+  for (std::size_t d = 0; d < area.size(); ++d)
+    liquid.lamella_volume[d] = 2 * network.half_thickness[d] * area[d];
   const auto length = mesh::border_dof_lengths(network.mesh, topology);
   for (std::size_t d = 0; d < length.size(); ++d)
     liquid.border_volume[d] = network.border_area[topology.border_dof[d].vertex] * length[d];
 }
 
-std::optional<Weakest> drain_films(const grid::Grid& grid, const Case& run_case, RunState& run, Witness& witness) {
+std::optional<Weakest> drain_films(const grid::Grid& grid, const Case& run_case, RunState& run,
+                                   Witness& witness) {
   mesh_films(grid, run_case, run, witness);
   for (auto& component : run.foam.gas.velocity.components) component.fill(0);
   run.foam.gas.pressure.fill(0);
@@ -105,32 +119,36 @@ std::optional<Weakest> drain_films(const grid::Grid& grid, const Case& run_case,
   const auto on_step = [&](const drainage::DrainageProgress& progress, const state::FilmNetwork& now) {
     run.foam.time = start + progress.elapsed;
     store(now, run.foam.liquid);
-    witness.step(run, now.topology, {.dt = progress.step, .min_half_thickness = progress.thinnest.half_thickness},
+    witness.step(run, now.topology,
+                 {.dt = progress.step, .min_half_thickness = progress.thinnest.half_thickness},
                  progress.limited_by);
     witness.frame_if_due(run, now.topology, run_case.output.drainage_interval);
     return !witness.stop_wanted();
   };
-  const auto outcome =
-      drainage::drain(network, run_case.materials, parameters, run_case.rupture.threshold, criterion, on_step);
+  const auto outcome = drainage::drain(network, run_case.materials, parameters, run_case.rupture.threshold,
+                                       criterion, on_step);
   if (outcome.ending == drainage::Ending::Stopped)
     throw Interrupted("stopped while the films drained; the run resumes from the start of this drainage");
 
   run.foam.time = start + outcome.elapsed;
   store(network, run.foam.liquid);
-  witness.frame(run, network.topology);
+  witness.frame(run, network.topology, run_case.output.drainage_interval);
   const auto weakest = weakest_of(network.topology, outcome.thinnest);
   if (outcome.ending == drainage::Ending::Ruptured && weakest) {
     witness.event(run, "film too thin", describe(outcome, *weakest));
     return weakest;
   }
   witness.event(run, "drained",
-                weakest ? describe(outcome, *weakest) : fmt::format("after {:.6g} s; no film may rupture", outcome.elapsed));
+                weakest ? describe(outcome, *weakest)
+                        : fmt::format("after {:.6g} s; no film may rupture", outcome.elapsed));
   return std::nullopt;
 }
 
-std::optional<Weakest> weakest_lamella(const grid::Grid& grid, const Case& run_case, const state::Foam& foam) {
+std::optional<Weakest> weakest_lamella(const grid::Grid& grid, const Case& run_case,
+                                       const state::Foam& foam) {
   const state::FilmNetwork network = network_of(foam);
-  return weakest_of(network.topology, rupture::thinnest_point(network, run_case.rupture, smallest_area(grid)));
+  return weakest_of(network.topology,
+                    rupture::thinnest_point(network, run_case.rupture, smallest_area(grid)));
 }
 
 }  // namespace spume::simulation

@@ -20,7 +20,8 @@ EquilibriumMeasure measure_equilibrium(RearrangeState& rearrange, double window,
   time.push_back(rearrange.elapsed);
   rearrange.recent_kinetic_energy.push_back(kinetic_energy);
   rearrange.recent_area.push_back(film_area);
-  const auto old = std::find_if(time.begin(), time.end(), [&](double t) { return t > rearrange.elapsed - window; });
+  const auto old =
+      std::find_if(time.begin(), time.end(), [&](double t) { return t > rearrange.elapsed - window; });
   const std::ptrdiff_t n_old = std::max<std::ptrdiff_t>(0, old - time.begin() - 1);
   for (auto* list : {&rearrange.recent_time, &rearrange.recent_kinetic_energy, &rearrange.recent_area})
     list->erase(list->begin(), list->begin() + n_old);

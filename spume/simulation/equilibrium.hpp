@@ -5,12 +5,12 @@
 
 namespace spume::simulation {
 
-/// How far from rest a foam is. The kinetic energy of an oscillation of relative amplitude ε is of order ε² of the film
-/// energy 2σA, and passes through zero twice a period, so its largest value over a window of one period of the mean
-/// bubble (3 sqrt(ρ R³/2σ), the mode n = 2 has 2.9) is what counts.
+/// How far from rest a foam is. The kinetic energy of an oscillation of relative amplitude ε is of order ε²
+/// of the film energy 2σA, and passes through zero twice a period, so its largest value over a window of one
+/// period of the mean bubble (3 sqrt(ρ R³/2σ), the mode n = 2 has 2.9) is what counts.
 struct EquilibriumMeasure {
-  double amplitude = 1e300;     ///< sqrt(max kinetic energy over the window / 2σA)
-  double area_change = 1e300;   ///< relative, over the window
+  double amplitude = 1e300;    ///< sqrt(max kinetic energy over the window / 2σA)
+  double area_change = 1e300;  ///< relative, over the window
   bool window_full = false;
 
   bool reached(double tolerance) const {

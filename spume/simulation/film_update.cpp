@@ -6,15 +6,27 @@
 #include <set>
 #include <utility>
 
+#include "spume/mesh/measure.hpp"
+
 namespace spume::simulation {
 
 namespace {
 
 using PhasePairs = std::set<std::pair<mesh::Phase, mesh::Phase>>;
 
-PhasePairs phase_pairs(const mesh::Topology& topology) {
+/// Pairs of phases that share a film; those of phases that were born or died in the reconstruction say
+/// nothing of T1s.
+PhasePairs phase_pairs(const mesh::Topology& topology, const interface::ReconstructReport& report) {
   PhasePairs pairs;
   for (const auto& lamella : topology.lamella) pairs.insert({lamella.phase_a, lamella.phase_b});
+  using Kind = interface::ReconstructReport::PhaseChange::Kind;
+  std::erase_if(pairs, [&](const auto& pair) {
+    return std::any_of(report.changes.begin(), report.changes.end(), [&](const auto& change) {
+      const mesh::Phase other = change.kind == Kind::Absorbed ? change.phase : change.other;
+      const auto has = [&](mesh::Phase p) { return p > 0 && (pair.first == p || pair.second == p); };
+      return change.kind != Kind::Absorbed && (has(change.phase) || has(other));
+    });
+  });
   return pairs;
 }
 
@@ -30,8 +42,8 @@ state::Event describe(double time, const interface::ReconstructReport::PhaseChan
   switch (change.kind) {
     case Kind::Split:
       return {time, "bubble split",
-              fmt::format("a piece of bubble {} is bubble {} now; volume {:.4g} m3", change.phase, change.other,
-                          change.volume)};
+              fmt::format("a piece of bubble {} is bubble {} now; volume {:.4g} m3", change.phase,
+                          change.other, change.volume)};
     case Kind::Pocket:
       return {time, "pocket",
               fmt::format("an enclosed piece of the outside is bubble {} now; volume {:.4g} m3", change.other,
@@ -42,8 +54,8 @@ state::Event describe(double time, const interface::ReconstructReport::PhaseChan
                           change.phase, change.volume)};
     case Kind::Lost:
       return {time, "bubble lost",
-              fmt::format("bubble {} is too small for the grid; its gas of {:.4g} m3 went to phase {}", change.phase,
-                          change.volume, change.other)};
+              fmt::format("bubble {} is too small for the grid; its gas of {:.4g} m3 went to phase {}",
+                          change.phase, change.volume, change.other)};
   }
   return {time, "phase change", ""};
 }
@@ -51,18 +63,31 @@ state::Event describe(double time, const interface::ReconstructReport::PhaseChan
 }  // namespace
 
 FilmUpdate reconstruct_films(const grid::Grid& grid, const Case& run_case, state::Foam& foam) {
-  const PhasePairs before = phase_pairs(mesh::build_topology(foam.films));
-  auto reconstruction = interface::reconstruct(grid, foam.films, foam.phases, run_case.reconstruct);
+  const mesh::Topology old_topology = mesh::build_topology(foam.films);
+  const double old_area = mesh::film_area(foam.films);
+  interface::ReconstructParameters parameters = run_case.reconstruct;
+  parameters.conserve_volumes = run_case.rearrangement.conserve_volumes;
+  auto reconstruction = interface::reconstruct(grid, foam.films, foam.phases, parameters);
 
   FilmUpdate update;
   update.reconstruction = std::move(reconstruction.report);
   update.potentials = std::move(reconstruction.potentials);
   update.topology = replace_films(run_case, grid.h(), std::move(reconstruction.films), foam, update.transfer);
-  for (const auto& change : update.reconstruction.changes) update.events.push_back(describe(foam.time, change));
-  const PhasePairs after = phase_pairs(update.topology);
-  if (before != after && update.reconstruction.changes.empty())
+  update.energy_correction =
+      2 * run_case.materials.film.surface_tension * (mesh::film_area(foam.films) - old_area);
+
+  const auto& report = update.reconstruction;
+  for (const auto& change : report.changes) update.events.push_back(describe(foam.time, change));
+  const PhasePairs before = phase_pairs(old_topology, report), after = phase_pairs(update.topology, report);
+  if (before != after)
     update.events.push_back(
-        {foam.time, "T1", fmt::format("films gone: {}; films new: {}", list(before, after), list(after, before))});
+        {foam.time, "T1",
+         fmt::format("films gone: {}; films new: {}", list(before, after), list(after, before))});
+  if (report.n_nonconforming_edges > 0 || report.n_refused_projections > 0)
+    update.events.push_back(
+        {foam.time, "poor reconstruction",
+         fmt::format("{} edges belong to no film or border; {} vertices were not put onto their films",
+                     report.n_nonconforming_edges, report.n_refused_projections)});
   return update;
 }
 
@@ -70,7 +95,8 @@ mesh::Topology replace_films(const Case& run_case, double h, mesh::FilmMesh film
                              transport::TransferReport& report) {
   const mesh::Topology old_topology = mesh::build_topology(foam.films);
   mesh::Topology topology = mesh::build_topology(films);
-  foam.liquid = transport::transfer(foam.films, old_topology, foam.liquid, films, topology, h, run_case.transport, report);
+  foam.liquid = transport::transfer(foam.films, old_topology, foam.liquid, films, topology, h,
+                                    run_case.transport, report);
   foam.films = std::move(films);
   return topology;
 }

@@ -17,11 +17,13 @@ struct FilmUpdate {
   std::shared_ptr<const interface::PhasePotentials> potentials;
   interface::ReconstructReport reconstruction;
   transport::TransferReport transfer;
-  std::vector<state::Event> events;  ///< T1, bubble split, pocket, piece absorbed, bubble lost
+  double energy_correction = 0;  ///< change of 2σA by the reconstruction [J]
+  std::vector<state::Event>
+      events;  ///< T1, bubble split, pocket, piece absorbed, bubble lost, poor reconstruction
 };
 
-/// Reconstructs the films of a foam and carries the liquid over. A change of the set of phase pairs that share films is
-/// reported as a T1. Collective.
+/// Reconstructs the films of a foam and carries the liquid over. A change of the set of phase pairs that
+/// share films is reported as a T1. Collective.
 FilmUpdate reconstruct_films(const grid::Grid& grid, const Case& run_case, state::Foam& foam);
 
 /// Gives the foam another mesh of the same films, with its liquid.

@@ -21,11 +21,12 @@ void check_inside(const std::vector<BubbleShape>& bubbles, const grid::Box& box)
     for (int d = 0; d < 3; ++d)
       if (bubbles[b].center[d] - bubbles[b].semi_axes[d] < box.lower[d] + margin ||
           bubbles[b].center[d] + bubbles[b].semi_axes[d] > box.upper[d] - margin)
-        throw InputError(fmt::format(
-            "bubble {} reaches to within {} cells ({:.3g} m) of the edge of the box across {}: centre {:.6g} m, radius "
-            "{:.6g} m, box from {:.6g} to {:.6g} m; enlarge [domain] or move the bubble",
-            b + 1, margin_cells, margin, "xyz"[d], bubbles[b].center[d], bubbles[b].semi_axes[d], box.lower[d],
-            box.upper[d]));
+        throw InputError(
+            fmt::format("bubble {} reaches to within {} cells ({:.3g} m) of the edge of the box across {}: "
+                        "centre {:.6g} m, radius "
+                        "{:.6g} m, box from {:.6g} to {:.6g} m; enlarge [domain] or move the bubble",
+                        b + 1, margin_cells, margin, "xyz"[d], bubbles[b].center[d], bubbles[b].semi_axes[d],
+                        box.lower[d], box.upper[d]));
 }
 
 double mean_radius(const std::vector<BubbleShape>& bubbles) {
@@ -34,8 +35,8 @@ double mean_radius(const std::vector<BubbleShape>& bubbles) {
   return sum / static_cast<double>(bubbles.size());
 }
 
-/// Films between the power cells of the bubbles. Where the case has a cluster, gas enclosed between bubbles is shared by
-/// them; among the user's own bubbles it becomes a bubble of its own.
+/// Films between the power cells of the bubbles. Where the case has a cluster, gas enclosed between bubbles
+/// is shared by them; among the user's own bubbles it becomes a bubble of its own.
 interface::Reconstruction films_of(const Case& run_case, const grid::Grid& grid,
                                    const std::vector<BubbleShape>& bubbles, state::Phases& phases) {
   const double radius = mean_radius(bubbles), h = grid.h();
@@ -63,11 +64,13 @@ void report(const interface::ReconstructReport& report, std::vector<state::Event
   using Kind = interface::ReconstructReport::PhaseChange::Kind;
   for (const auto& change : report.changes) {
     if (change.kind == Kind::Pocket)
-      events.push_back({0, "pocket", fmt::format("gas enclosed between the bubbles is bubble {}; volume {:.4g} m3",
-                                                 change.other, change.volume)});
+      events.push_back({0, "pocket",
+                        fmt::format("gas enclosed between the bubbles is bubble {}; volume {:.4g} m3",
+                                    change.other, change.volume)});
     if (change.kind == Kind::Lost)
-      events.push_back({0, "bubble lost", fmt::format("bubble {} is too small for the grid; volume {:.4g} m3",
-                                                      change.phase, change.volume)});
+      events.push_back({0, "bubble lost",
+                        fmt::format("bubble {} is too small for the grid; volume {:.4g} m3", change.phase,
+                                    change.volume)});
   }
 }
 
@@ -97,15 +100,24 @@ void make_initial_foam(const Case& run_case, state::Foam& foam, std::vector<stat
   };
   wet();
   if (start.equilibrate) {
-    const auto result = equilibrate(grid, run_case, foam, events, [](const auto&, const auto&) { return true; });
-    events.push_back({0, "equilibrated", fmt::format("{} steps; {} reconstructions; virial identity off by {:.2g}",
-                                                     result.n_steps, result.n_reconstructions, result.virial_error)});
+    const auto result =
+        equilibrate(grid, run_case, foam, events, [](const auto&, const auto&) { return true; });
+    events.push_back({0, result.converged ? "equilibrated" : "equilibrium not reached",
+                      fmt::format("{} steps; {} reconstructions; virial identity off by {:.2g}",
+                                  result.n_steps, result.n_reconstructions, result.virial_error)});
     wet();
   }
   for (const auto& [a, b] : start.remove_lamella) {
-    const bool known = std::min(a, b) >= 0 && std::max(a, b) < foam.phases.count() && a != b;
-    if (!known || !foam.phases.alive(a) || !foam.phases.alive(b))
-      throw InputError(fmt::format("foam.remove_lamella: there are no films between {} and {}", a, b));
+    const auto topology = mesh::build_topology(foam.films);
+    const bool share_film =
+        std::any_of(topology.lamella.begin(), topology.lamella.end(), [&](const auto& lamella) {
+          return lamella.phase_a == std::min(a, b) && lamella.phase_b == std::max(a, b);
+        });
+    if (!share_film)
+      throw InputError(
+          fmt::format("foam.remove_lamella: bubbles {} and {} share no film (a bubble that was merged by an "
+                      "earlier pair has the lower number of the two)",
+                      a, b));
     const auto update = tear(grid, run_case, a, b, foam);
     events.insert(events.end(), update.events.begin(), update.events.end());
   }

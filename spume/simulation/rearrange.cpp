@@ -37,7 +37,8 @@ double largest_motion(const RunState& run) {
   return largest;
 }
 
-bool needs_reconstruction(const grid::Grid& grid, const RearrangementParameters& parameters, const RunState& run) {
+bool needs_reconstruction(const grid::Grid& grid, const RearrangementParameters& parameters,
+                          const RunState& run) {
   const double motion = largest_motion(run) / grid.h();
   constexpr double moving = 0.25;  // a foam at rest is left alone: every reconstruction gives it a small kick
   return motion > parameters.reconstruction_displacement ||
@@ -53,22 +54,25 @@ mesh::Topology reconstruct(const grid::Grid& grid, const Case& run_case, RunStat
 }
 
 /// Without gas: the overdamped motion of the films to equilibrium, at no cost of simulated time.
-void rearrange_quasistatically(const grid::Grid& grid, const Case& run_case, RunState& run, Witness& witness) {
+void rearrange_quasistatically(const grid::Grid& grid, const Case& run_case, RunState& run,
+                               Witness& witness) {
   std::vector<state::Event> events;
   bool stopped = false;
-  const auto report = equilibrate(grid, run_case, run.foam, events, [&](const auto&, const mesh::Topology& topology) {
-    witness.step(run, topology, {}, "relaxation");
-    return !(stopped = witness.stop_wanted());
-  });
+  const auto report =
+      equilibrate(grid, run_case, run.foam, events, [&](const auto&, const mesh::Topology& topology) {
+        witness.step(run, topology, {}, "relaxation");
+        return !(stopped = witness.stop_wanted());
+      });
   witness.events(events);
   if (stopped) {
     witness.checkpoint(run);
     throw Interrupted("stopped in the relaxation; the state was saved");
   }
-  witness.frame(run, mesh::build_topology(run.foam.films));
-  witness.event(run, report.converged ? "equilibrium reached" : "equilibrium not reached",
-                fmt::format("quasistatic; {} steps; virial identity off by {:.2g}; last relative change of area {:.2g}",
-                            report.n_steps, report.virial_error, report.area_change));
+  witness.frame(run, mesh::build_topology(run.foam.films), run_case.output.rearrangement_interval);
+  witness.event(
+      run, report.converged ? "equilibrium reached" : "equilibrium not reached",
+      fmt::format("quasistatic; {} steps; virial identity off by {:.2g}; last relative change of area {:.2g}",
+                  report.n_steps, report.virial_error, report.area_change));
 }
 
 }  // namespace
@@ -86,22 +90,26 @@ void rearrange(const grid::Grid& grid, const Case& run_case, RunState& run, Witn
   if (run.rearrange.reference.empty()) run.rearrange.reference = run.foam.films.position;
 
   for (EquilibriumMeasure equilibrium;;) {
-    const bool out_of_time = run.rearrange.elapsed >= run_case.rearrangement.max_time ||
-                             run.foam.time >= run_case.cycle.end_time;
+    const bool out_of_time =
+        run.rearrange.elapsed >= run_case.rearrangement.max_time || run.foam.time >= run_case.cycle.end_time;
     if (equilibrium.reached(run_case.rearrangement.equilibrium_tolerance) || out_of_time) {
-      witness.frame(run, topology);
-      witness.event(run, out_of_time ? "equilibrium not reached" : "equilibrium reached",
-                    fmt::format("after {:.4g} s; amplitude of motion {:.2g}; relative change of area {:.2g}",
-                                run.rearrange.elapsed, equilibrium.amplitude, equilibrium.area_change));
+      witness.frame(run, topology, run_case.output.rearrangement_interval);
+      witness.event(
+          run, out_of_time ? "equilibrium not reached" : "equilibrium reached",
+          run.rearrange.recent_time.empty()
+              ? "no time for it"
+              : fmt::format("after {:.4g} s; amplitude of motion {:.2g}; relative change of area {:.2g}",
+                            run.rearrange.elapsed, equilibrium.amplitude, equilibrium.area_change));
       return;
     }
+    if (run.foam.phases.n_bubbles() == 0) return;  // the last one was too small for the grid
     if (witness.stop_wanted()) {
       witness.checkpoint(run);
       throw Interrupted("stopped while the foam rearranged; the state was saved");
     }
 
-    const auto forces = flow::film_forces(run.foam.films, topology, run.foam.phases.count(),
-                                          materials.film.surface_tension);
+    const auto forces =
+        flow::film_forces(run.foam.films, topology, run.foam.phases.count(), materials.film.surface_tension);
     flow::spread_film_forces(run.foam.films, forces, kernel, force);
     const flow::StepLimit limit = choose_step(grid, run_case, gas, run);
     gas.step(run.foam.gas, force, limit.dt);
@@ -112,7 +120,8 @@ void rearrange(const grid::Grid& grid, const Case& run_case, RunState& run, Witn
     const double area_carried = mesh::film_area(run.foam.films);
     if (run_case.rearrangement.conserve_volumes)
       mesh::restore_volumes(run.foam.films, run.foam.phases.target_volume, 1, 0.1 * grid.h());
-    if (needs_reconstruction(grid, run_case.rearrangement, run)) topology = reconstruct(grid, run_case, run, witness);
+    if (needs_reconstruction(grid, run_case.rearrangement, run))
+      topology = reconstruct(grid, run_case, run, witness);
     transport::fill_young_films(run.foam.films, topology, run.foam.liquid, grid.h(), run_case.transport);
 
     const double sigma = materials.film.surface_tension;

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "spume/base/error.hpp"
-#include "spume/io/checkpoint.hpp"
+#include "spume/flow/surface_tension.hpp"
 #include "spume/mesh/measure.hpp"
 #include "spume/simulation/cycle.hpp"
 #include "spume/simulation/initial_foam.hpp"
@@ -35,16 +35,19 @@ class NewFolder {
       if (!fs::is_directory(folder, error))
         throw InputError(fmt::format("{} is a file; give a folder for the output with -o", folder.string()));
       if (fs::exists(folder / "case.toml", error) && !force)
-        throw InputError(fmt::format("{} holds {} run; go on with it by `spume resume {}`, give another folder with -o, "
-                                     "or overwrite it with --force",
-                                     folder.string(), fs::exists(folder / summary_file) ? "a finished" : "an unfinished",
-                                     folder.string()));
+        throw InputError(
+            fmt::format("{} holds {} run; go on with it by `spume resume {}`, give another folder with -o, "
+                        "or overwrite it with --force",
+                        folder.string(), fs::exists(folder / summary_file) ? "a finished" : "an unfinished",
+                        folder.string()));
       if (!fs::exists(folder / "case.toml", error) && !fs::is_empty(folder, error))
-        throw InputError(fmt::format("{} is not empty and holds no run; give another folder with -o", folder.string()));
+        throw InputError(
+            fmt::format("{} is not empty and holds no run; give another folder with -o", folder.string()));
     } else {
       made_ = fs::create_directories(folder, error);
       if (!made_)
-        throw InputError(fmt::format("cannot make the output folder {}: {}", folder.string(), error.message()));
+        throw InputError(
+            fmt::format("cannot make the output folder {}: {}", folder.string(), error.message()));
     }
     std::ofstream probe(folder / ".probe");
     if (!probe) throw InputError(fmt::format("cannot write into the output folder {}", folder.string()));
@@ -64,9 +67,9 @@ class NewFolder {
 
 /// Takes away what an earlier run left in the folder; nothing else is touched.
 void clear(const fs::path& folder) {
-  for (const char* entry : {"case.toml", "history.csv", "bubbles.csv", "lamellae.csv", "borders.csv", "events.csv",
-                            "films.pvd", "films", "gas.pvd", "gas", "checkpoint", "checkpoint.new", "checkpoint.old",
-                            "README.txt", summary_file})
+  for (const char* entry : {"case.toml", "history.csv", "bubbles.csv", "lamellae.csv", "borders.csv",
+                            "events.csv", "films.pvd", "films", "gas.pvd", "gas", "checkpoint",
+                            "checkpoint.new", "checkpoint.old", "README.txt", summary_file})
     fs::remove_all(folder / entry);
 }
 
@@ -93,7 +96,8 @@ RunSummary summarize(const RunState& run, double initial_liquid, double wall_sec
 
 std::string text_of(const RunSummary& summary) {
   return fmt::format(
-      "simulated time   {:.6g} s\nruptures         {}\nbubbles          {}\nlamellae         {}\nPlateau borders  {}\n"
+      "simulated time   {:.6g} s\nruptures         {}\nbubbles          {}\nlamellae         {}\nPlateau "
+      "borders  {}\n"
       "junctions        {}\nfilm area        {:.6g} m2\nliquid ledger    off by {:.2g} relative\n",
       summary.time, summary.ruptures, summary.bubbles, summary.lamellae, summary.borders, summary.junctions,
       summary.film_area, summary.liquid_error);
@@ -123,8 +127,8 @@ RunSummary go_on(const parallel::Communicator& communicator, const Case& run_cas
 
 }  // namespace
 
-RunSummary run(const parallel::Communicator& communicator, const Case& run_case, const std::string& resolved_case,
-               const fs::path& folder, const RunOptions& options) {
+RunSummary run(const parallel::Communicator& communicator, const Case& run_case,
+               const std::string& resolved_case, const fs::path& folder, const RunOptions& options) {
   std::unique_ptr<NewFolder> new_folder;
   communicator.on_root([&] { new_folder = std::make_unique<NewFolder>(folder, options.force); });
   const grid::Grid grid(communicator, run_case.box);
@@ -143,6 +147,11 @@ RunSummary run(const parallel::Communicator& communicator, const Case& run_case,
   const auto topology = mesh::build_topology(run.foam.films);
   StepRecord start{.step = run.step++, .stage = run.stage};
   diary.record_step(run.foam, topology, start);
+  const auto forces = flow::film_forces(run.foam.films, topology, run.foam.phases.count(),
+                                        run_case.materials.film.surface_tension);
+  diary.record_frame(run.foam, topology, forces.pressure);
+  run.has_frame = true;
+  run.next_frame = run_case.output.rearrangement_interval;
   save(folder, run, diary.mark());
   return go_on(communicator, run_case, folder, options, run, diary);
 }
@@ -152,12 +161,15 @@ RunSummary resume(const parallel::Communicator& communicator, const Case& run_ca
   const grid::Grid grid(communicator, run_case.box);
   RunState run(grid);
   const DiaryMark mark = load(folder, run);
-  communicator.on_root([&] { fs::remove(folder / summary_file); });
-  run.finished = false;  // a finished run may be given more to do: a later end time or more ruptures
+  if (run.finished && is_over(run_case, run)) return summarize(run, mark.initial_liquid, 0);
+  run.finished = false;  // it was given more to do: a later end time or more ruptures
   Diary diary(communicator, folder, run_case, mark, true);
+  communicator.on_root([&] { fs::remove(folder / summary_file); });
   return go_on(communicator, run_case, folder, options, run, diary);
 }
 
-void request_stop() { stop_flag() = true; }
+void request_stop() {
+  stop_flag() = true;
+}
 
 }  // namespace spume::simulation

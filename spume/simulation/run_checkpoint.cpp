@@ -1,5 +1,6 @@
 #include "spume/simulation/run_checkpoint.hpp"
 
+#include "spume/base/error.hpp"
 #include "spume/io/checkpoint.hpp"
 
 namespace spume::simulation {
@@ -19,6 +20,16 @@ std::vector<Vec3> points_of(const std::vector<double>& flat) {
   return points;
 }
 
+template <class Value>
+Value find(const std::map<std::string, Value>& values, const char* name,
+           const std::filesystem::path& folder) {
+  const auto found = values.find(name);
+  if (found == values.end())
+    throw InputError("the checkpoint in " + folder.string() + " lacks '" + name +
+                     "'; it is of another version of spume");
+  return found->second;
+}
+
 }  // namespace
 
 void save(const std::filesystem::path& folder, const RunState& run, const DiaryMark& mark) {
@@ -28,6 +39,7 @@ void save(const std::filesystem::path& folder, const RunState& run, const DiaryM
                     {"ruptures", run.ruptures},
                     {"bubbles_at_start", run.bubbles_at_start},
                     {"next_frame", run.next_frame},
+                    {"has_frame", run.has_frame},
                     {"finished", run.finished},
                     {"rearrange_elapsed", run.rearrange.elapsed},
                     {"steps_since_reconstruction", run.rearrange.steps_since_reconstruction},
@@ -48,22 +60,32 @@ void save(const std::filesystem::path& folder, const RunState& run, const DiaryM
 
 DiaryMark load(const std::filesystem::path& folder, RunState& run) {
   const io::CheckpointExtras extras = io::load_checkpoint(folder, run.foam);
-  const auto number = [&](const char* name) { return extras.numbers.at(name); };
-  const auto count = [&](const char* name) { return static_cast<long>(extras.numbers.at(name)); };
-  run.stage = static_cast<Stage>(count("stage"));
+  const auto number = [&](const char* name) { return find(extras.numbers, name, folder); };
+  const auto count = [&](const char* name) { return static_cast<long>(number(name)); };
+  const auto list = [&](const char* name) { return find(extras.lists, name, folder); };
+  const long stage = count("stage");
+  if (stage < 0 || stage > static_cast<long>(Stage::Rupture))
+    throw InputError("the checkpoint in " + folder.string() + " names no stage of this program");
+  run.stage = static_cast<Stage>(stage);
   run.step = count("step");
   run.ruptures = static_cast<int>(count("ruptures"));
   run.bubbles_at_start = static_cast<int>(count("bubbles_at_start"));
   run.next_frame = number("next_frame");
+  run.has_frame = count("has_frame") != 0;
   run.finished = count("finished") != 0;
   run.rearrange.elapsed = number("rearrange_elapsed");
   run.rearrange.steps_since_reconstruction = static_cast<int>(count("steps_since_reconstruction"));
-  run.rearrange.reference = points_of(extras.lists.at("reference"));
-  run.rearrange.recent_time = extras.lists.at("recent_time");
-  run.rearrange.recent_kinetic_energy = extras.lists.at("recent_kinetic_energy");
-  run.rearrange.recent_area = extras.lists.at("recent_area");
-  return {count("history_rows"), count("bubble_rows"), count("lamella_rows"), count("border_rows"),
-          count("event_rows"), static_cast<int>(count("frames")), static_cast<int>(count("gas_frames")),
+  run.rearrange.reference = points_of(list("reference"));
+  run.rearrange.recent_time = list("recent_time");
+  run.rearrange.recent_kinetic_energy = list("recent_kinetic_energy");
+  run.rearrange.recent_area = list("recent_area");
+  return {count("history_rows"),
+          count("bubble_rows"),
+          count("lamella_rows"),
+          count("border_rows"),
+          count("event_rows"),
+          static_cast<int>(count("frames")),
+          static_cast<int>(count("gas_frames")),
           number("initial_liquid")};
 }
 

@@ -9,10 +9,11 @@ namespace spume::simulation {
 
 /// How far a rearrangement stage has got; empty before it starts.
 struct RearrangeState {
-  double elapsed = 0;                       ///< since the stage began [s]
+  double elapsed = 0;  ///< since the stage began [s]
   int steps_since_reconstruction = 0;
-  std::vector<Vec3> reference;              ///< vertices just after the last reconstruction [m]
-  std::vector<double> recent_time, recent_kinetic_energy, recent_area;  ///< the window that equilibrium looks at
+  std::vector<Vec3> reference;  ///< vertices just after the last reconstruction [m]
+  std::vector<double> recent_time, recent_kinetic_energy,
+      recent_area;  ///< the window that equilibrium looks at
 };
 
 /// Where a run stands: the foam and the counters. A checkpoint holds exactly this.
@@ -22,10 +23,11 @@ struct RunState {
   state::Foam foam;
   Stage stage = Stage::Rearrange;  ///< the one under way
   RearrangeState rearrange;
-  long step = 0;                   ///< lines of history so far
+  long step = 0;  ///< lines of history so far
   int ruptures = 0;
   int bubbles_at_start = 0;
-  double next_frame = 0;           ///< [s]
+  double next_frame = 0;   ///< [s]
+  bool has_frame = false;  ///< the present state is among the frames already
   bool finished = false;
 };
 

@@ -17,23 +17,14 @@ double wall_seconds() {
 double fraction_done(const Case& run_case, const RunState& run) {
   const double by_time = run.foam.time / run_case.cycle.end_time;
   const double by_ruptures = static_cast<double>(run.ruptures) / run_case.cycle.max_ruptures;
-  const double by_bubbles =
-      run.bubbles_at_start > 1
-          ? static_cast<double>(run.bubbles_at_start - run.foam.phases.n_bubbles()) / (run.bubbles_at_start - 1)
-          : 0.0;
+  const double by_bubbles = run.bubbles_at_start > 1
+                                ? static_cast<double>(run.bubbles_at_start - run.foam.phases.n_bubbles()) /
+                                      (run.bubbles_at_start - 1)
+                                : 0.0;
   return std::clamp(std::max({by_time, by_ruptures, by_bubbles}), 0.0, 1.0);
 }
 
 }  // namespace
-
-const char* name(Stage stage) {
-  switch (stage) {
-    case Stage::Rearrange: return "rearrange";
-    case Stage::Drain: return "drain";
-    case Stage::Rupture: return "rupture";
-  }
-  return "";
-}
 
 Witness::Witness(const parallel::Communicator& communicator, const Case& run_case, Diary& diary,
                  ProgressLine& progress, std::function<void(const RunState&)> save,
@@ -46,23 +37,26 @@ Witness::Witness(const parallel::Communicator& communicator, const Case& run_cas
       stop_wanted_(std::move(stop_wanted)),
       last_checkpoint_(wall_seconds()) {}
 
-void Witness::step(RunState& run, const mesh::Topology& topology, StepRecord record, const std::string& limited_by) {
+void Witness::step(RunState& run, const mesh::Topology& topology, StepRecord record,
+                   const std::string& limited_by) {
   record.step = run.step++;
   record.stage = run.stage;
+  run.has_frame = false;
   diary_.record_step(run.foam, topology, record);
   show(run, record.dt, limited_by);
 }
 
-void Witness::frame_if_due(RunState& run, const mesh::Topology& topology, double interval) {
-  if (run.foam.time < run.next_frame) return;
-  frame(run, topology);
-  run.next_frame = run.foam.time + interval;
-}
-
-void Witness::frame(RunState& run, const mesh::Topology& topology) {
+void Witness::frame(RunState& run, const mesh::Topology& topology, double interval) {
+  if (run.has_frame) return;
   const auto forces = flow::film_forces(run.foam.films, topology, run.foam.phases.count(),
                                         case_.materials.film.surface_tension);
   diary_.record_frame(run.foam, topology, forces.pressure);
+  run.has_frame = true;
+  run.next_frame = run.foam.time + interval;
+}
+
+void Witness::frame_if_due(RunState& run, const mesh::Topology& topology, double interval) {
+  if (run.foam.time >= run.next_frame) frame(run, topology, interval);
 }
 
 void Witness::event(const RunState& run, const std::string& kind, const std::string& detail) {
@@ -87,7 +81,9 @@ void Witness::checkpoint(const RunState& run) {
   last_checkpoint_ = wall_seconds();
 }
 
-bool Witness::stop_wanted() const { return communicator_.any(stop_wanted_()); }
+bool Witness::stop_wanted() const {
+  return communicator_.any(stop_wanted_());
+}
 
 void Witness::show(const RunState& run, double dt, const std::string& limited_by) {
   progress_.show({name(run.stage), run.foam.time, dt, limited_by, run.foam.phases.n_bubbles(), run.ruptures,

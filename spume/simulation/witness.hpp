@@ -11,18 +11,20 @@
 
 namespace spume::simulation {
 
-/// What watches a run and may stop it: the diary, the live line, checkpoints and the user's wish to stop. The stages
-/// know nothing else of the world outside.
+/// What watches a run and may stop it: the diary, the live line, checkpoints and the user's wish to stop. The
+/// stages know nothing else of the world outside.
 class Witness {
  public:
-  Witness(const parallel::Communicator& communicator, const Case& run_case, Diary& diary, ProgressLine& progress,
-          std::function<void(const RunState&)> save, std::function<bool()> stop_wanted);
+  Witness(const parallel::Communicator& communicator, const Case& run_case, Diary& diary,
+          ProgressLine& progress, std::function<void(const RunState&)> save,
+          std::function<bool()> stop_wanted);
 
   /// After each step of a stage: a line of history.csv and the live line. Collective.
   void step(RunState& run, const mesh::Topology& topology, StepRecord record, const std::string& limited_by);
-  /// A frame if one is due after `interval` [s] of simulated time, or in any case. Collective.
+  /// A frame, unless this very state has one; the next is due after `interval` [s] of simulated time.
+  /// Collective.
+  void frame(RunState& run, const mesh::Topology& topology, double interval);
   void frame_if_due(RunState& run, const mesh::Topology& topology, double interval);
-  void frame(RunState& run, const mesh::Topology& topology);
   void event(const RunState& run, const std::string& kind, const std::string& detail);
   void events(const std::vector<state::Event>& events);
   /// Writes a checkpoint when the last is older than half a minute of wall time. Collective.
@@ -42,7 +44,5 @@ class Witness {
   std::function<bool()> stop_wanted_;
   double last_checkpoint_;
 };
-
-const char* name(Stage stage);
 
 }  // namespace spume::simulation

@@ -16,7 +16,7 @@ declare -A allowed=(
   [parallel]="base"
   [grid]="$tools"
   [mesh]="$tools"
-  [fem]="$tools mesh"  # the matrices of a film are those of its triangles
+  [fem]="$tools"
 )
 allowed[state]="$tools grid mesh fem"
 for model in interface flow transport meshing drainage rupture optics io; do

@@ -60,7 +60,7 @@ TEST(WrongCase, value_out_of_range_is_told_with_the_range) {
               HasSubstr("'gas.density' must be a number > 0"));
   EXPECT_THAT(report(sample_case + "[gas]\ndensity = inf\n"),
               HasSubstr("'gas.density' must be a number > 0"));
-  EXPECT_THAT(report(sample_case + "[rearrangement]\ncfl = 1.5\n"), HasSubstr("> 0, ≤ 1, not 1.5"));
+  EXPECT_THAT(report(sample_case + "[rearrangement]\ncfl = 1.5\n"), HasSubstr("> 0, ≤ 0.5, not 1.5"));
   EXPECT_THAT(report(sample_case, {"foam.cluster.seed=-3"}), HasSubstr("must be a whole number ≥ 0, not -3"));
   EXPECT_THAT(report(sample_case, {"cycle.max_ruptures=3000000000"}), HasSubstr("must be a whole number"));
 }

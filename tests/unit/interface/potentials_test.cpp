@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "analytic_foams.hpp"
-#include "spume/interface/derived_fields.hpp"
 
 namespace spume::interface {
 namespace {
@@ -54,18 +53,6 @@ TEST(PhasePotentials, ProjectRefusesLongMoves) {
   EXPECT_TRUE(potentials.project(0.4 * h * towards, {0, 1}));
   EXPECT_FALSE(potentials.project(0.7 * h * towards, {0, 1}));
   EXPECT_FALSE(potentials.project({}, {0, 9})) << "a phase without field";
-}
-
-TEST(DerivedFields, GiveTheDistanceToTheNearestFilmAndThePhase) {
-  const grid::Box box = testing::cube_box(24);
-  const auto plane = [](mesh::Phase p, const Vec3& x) { return p == 0 ? x.z : -x.z; };
-  const DerivedFields fields = derived_fields(testing::sampled(box, plane, 2));
-  std::size_t n = 0;
-  for_each_cell(all_cells(box.cells), [&](int, int, int k) {
-    const double z = (k + 0.5) * h - 12 * h;
-    EXPECT_NEAR(fields.distance[n], std::abs(z), 1e-12 * h);
-    EXPECT_EQ(fields.phase[n++], z > 0 ? 0 : 1);
-  });
 }
 
 }  // namespace
