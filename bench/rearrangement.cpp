@@ -1,5 +1,6 @@
-// Seconds a step of the rearrangement, the share of each part, and the ratio to one Poisson solve of the same grid timed in
-// the same run: machines differ and drift, ratios less so.  Usage: bench_rearrangement [cells a side = 64] [steps = 60]
+// Seconds a step of the rearrangement, the share of each part, and the ratio to one Poisson solve of the same
+// grid timed in the same run: machines differ and drift, ratios less so.  Usage: bench_rearrangement [cells a
+// side = 64] [steps = 60]
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -41,7 +42,8 @@ simulation::Case cluster_case(int cells, int bubbles) {
   run_case.box = {{-half, -half, -half}, {half, half, half}, {cells, cells, cells}};
   run_case.materials.gas = {1.2, 1.8e-5};
   run_case.materials.film.surface_tension = 0.03;
-  run_case.foam.cluster = simulation::ClusterShape{.count = bubbles, .mean_diameter = 3e-3, .spread = 0.15, .seed = 1, .center = {}};
+  run_case.foam.cluster = simulation::ClusterShape{
+      .count = bubbles, .mean_diameter = 3e-3, .spread = 0.15, .seed = 1, .center = {}};
   return run_case;
 }
 
@@ -80,7 +82,8 @@ void bench(int cells, int bubbles, int steps) {
   for (int step = 0; step < steps; ++step) {
     flow::FilmForces forces;
     watch.time("film forces", [&] {
-      forces = flow::film_forces(foam.films, topology, foam.phases.count(), run_case.materials.film.surface_tension);
+      forces = flow::film_forces(foam.films, topology, foam.phases.count(),
+                                 run_case.materials.film.surface_tension);
     });
     watch.time("spreading", [&] { flow::spread_film_forces(foam.films, forces, kernel, force); });
     watch.time("gas", [&] { gas.step(foam.gas, force, dt); });
@@ -92,7 +95,8 @@ void bench(int cells, int bubbles, int steps) {
     for (std::size_t v = 0; v < reference.size(); ++v)
       motion = std::max(motion, norm(foam.films.position[v] - reference[v]));
     if (motion > h || step == steps - 1) {
-      watch.time("reconstruction", [&] { topology = simulation::reconstruct_films(grid, run_case, foam).topology; });
+      watch.time("reconstruction",
+                 [&] { topology = simulation::reconstruct_films(grid, run_case, foam).topology; });
       reference = foam.films.position;
       ++reconstructions;
     }
@@ -101,8 +105,9 @@ void bench(int cells, int bubbles, int steps) {
   double total = 0;
   for (const auto& [part, seconds] : watch.seconds()) total += seconds;
   const double n_cells = static_cast<double>(grid.total_size());
-  std::printf("\n%d^3 cells, %d bubbles, %d triangles, %d steps, %d reconstructions (%.3f s each)\n", cells, bubbles,
-              foam.films.n_triangles(), steps, reconstructions, watch.seconds().at("reconstruction") / reconstructions);
+  std::printf("\n%d^3 cells, %d bubbles, %d triangles, %d steps, %d reconstructions (%.3f s each)\n", cells,
+              bubbles, foam.films.n_triangles(), steps, reconstructions,
+              watch.seconds().at("reconstruction") / reconstructions);
   std::printf("  one Poisson solve  %9.5f s\n", poisson);
   std::printf("  a step             %9.5f s = %.0f Poisson solves; %.3g cells*steps/s\n", total / steps,
               total / steps / poisson, n_cells * steps / total);

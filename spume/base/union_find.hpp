@@ -5,8 +5,8 @@
 
 namespace spume {
 
-/// Disjoint sets of the integers 0 … n−1. The representative of a set is its smallest member, so the result does
-/// not depend on the order of the joins.
+/// Disjoint sets of the integers 0 … n−1. The representative of a set is its smallest member, so the result
+/// does not depend on the order of the joins.
 class UnionFind {
  public:
   explicit UnionFind(int n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
@@ -19,8 +19,10 @@ class UnionFind {
   void join(int a, int b) {
     a = find(a);
     b = find(b);
-    if (a < b) parent_[b] = a;
-    else parent_[a] = b;
+    if (a < b)
+      parent_[b] = a;
+    else
+      parent_[a] = b;
   }
 
   /// Number of sets, and for each member the number of its set, counted in the order of representatives.

@@ -28,9 +28,13 @@ toml::table parse_option(const std::string& option, const std::string& source) {
     throw InputError(source + ": an option has the form section.key=value");
   const std::string value = option.substr(equals + 1);
   if (value.empty()) throw InputError(source + ": no value after '='");
-  const std::string text = is_bare_word(value) ? option.substr(0, equals) + "=\"" + value + "\"" : option;
   try {
-    return toml::parse(text, source);
+    return toml::parse(option, source);
+  } catch (const toml::parse_error& error) {
+    if (!is_bare_word(value)) throw InputError(source + ": " + std::string(error.description()));
+  }
+  try {  // a word without quotes is meant as text
+    return toml::parse(option.substr(0, equals) + "=\"" + value + "\"", source);
   } catch (const toml::parse_error& error) {
     throw InputError(source + ": " + std::string(error.description()));
   }

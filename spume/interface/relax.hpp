@@ -6,15 +6,16 @@
 namespace spume::interface {
 
 struct RelaxStepReport {
-  double area_before, area_after;   ///< [m²]
-  double virial_error;              ///< |(2/3) A / Σ P_i V_i − 1| with P in units of the film tension
-  double largest_displacement;      ///< [m]
+  double area_before, area_after;  ///< [m²]
+  double virial_error;             ///< |(2/3) A / Σ P_i V_i − 1| with P in units of the film tension
+  double largest_displacement;     ///< [m]
 };
 
 /// One step of implicit, volume-constrained curvature flow of the film mesh, without gas:
 ///   (M/τ + L) x' = (M/τ) x + Σ_i P_i ∂V_i/∂x,
-/// L the cotangent matrix summed over all films, M the lumped area, P_i the film pressures a unit of tension, then
-/// volumes restored on the mesh. τ [m²] is the time in units where the film tension over the friction is one.
+/// L the cotangent matrix summed over all films, M the lumped area, P_i the film pressures a unit of tension,
+/// then volumes restored on the mesh. τ [m²] is the time in units where the film tension over the friction is
+/// one.
 RelaxStepReport relax_step(mesh::FilmMesh& films, const state::Phases& phases, double tau);
 
 }  // namespace spume::interface

@@ -8,15 +8,15 @@
 
 namespace spume::mesh {
 
-/// A piece of film between two phases. Its normal, by the right-hand rule over the vertices, points from phase_a into
-/// phase_b, and phase_a < phase_b always.
+/// A piece of film between two phases. Its normal, by the right-hand rule over the vertices, points from
+/// phase_a into phase_b, and phase_a < phase_b always.
 struct FilmTriangle {
   std::array<int, 3> vertex;
   Phase phase_a, phase_b;
 };
 
-/// The interface: conforming triangles of all films. The same on every rank. Everything else about it (phases of a
-/// vertex, lamellae, Plateau borders, junctions) follows from these two arrays: see topology.hpp.
+/// The interface: conforming triangles of all films. The same on every rank. Everything else about it (phases
+/// of a vertex, lamellae, Plateau borders, junctions) follows from these two arrays: see topology.hpp.
 struct FilmMesh {
   std::vector<Vec3> position;  ///< of vertices [m]
   std::vector<FilmTriangle> triangle;

@@ -100,8 +100,8 @@ std::vector<Vec3> weighted_volume_gradient(const FilmMesh& mesh, std::span<const
   return gradient;
 }
 
-std::vector<double> film_pressures(const FilmMesh& mesh, const Topology& topology, std::span<const Vec3> force,
-                                   int n_phases) {
+std::vector<double> film_pressures(const FilmMesh& mesh, const Topology& topology,
+                                   std::span<const Vec3> force, int n_phases) {
   std::vector<Vec3> doubled_area(mesh.position.size());
   for (int t = 0; t < mesh.n_triangles(); ++t)
     for (int v : mesh.triangle[t].vertex) doubled_area[v] += doubled_area_normal(mesh, t);

@@ -13,7 +13,8 @@ namespace spume::mesh {
 /// A phase: 0 is the outside, 1, 2, … are bubbles. Ids are never used again.
 using Phase = std::int32_t;
 
-/// The few phases that meet at a point, in increasing order: 2 on a film, 3 on a Plateau border, 4 or more at a junction.
+/// The few phases that meet at a point, in increasing order: 2 on a film, 3 on a Plateau border, 4 or more at
+/// a junction.
 class PhaseSet {
  public:
   static constexpr int capacity = 12;

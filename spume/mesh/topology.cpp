@@ -12,9 +12,9 @@ namespace {
 
 /// A side of a triangle, sorted so that the sides of one edge are neighbours.
 struct Side {
-  int low, high;     ///< vertices of the edge
+  int low, high;  ///< vertices of the edge
   int triangle;
-  bool forward;      ///< runs from low to high
+  bool forward;  ///< runs from low to high
 };
 
 std::vector<Side> sorted_sides(const FilmMesh& mesh) {
@@ -54,13 +54,15 @@ void find_phases_and_stars(const FilmMesh& mesh, Topology& topology) {
   topology.vertex_kind.resize(n);
   for (int v = 0; v < n; ++v) {
     const int n_phases = topology.vertex_phases[v].size();
-    topology.vertex_kind[v] =
-        n_phases <= 2 ? VertexKind::Film : n_phases == 3 ? VertexKind::Border : VertexKind::Junction;
+    topology.vertex_kind[v] = n_phases <= 2   ? VertexKind::Film
+                              : n_phases == 3 ? VertexKind::Border
+                                              : VertexKind::Junction;
     if (n_phases >= 4) topology.junction.push_back(v);
   }
 }
 
-/// Film dofs are the pairs (vertex, phase pair) in increasing order of vertex; lamellae their connected classes.
+/// Film dofs are the pairs (vertex, phase pair) in increasing order of vertex; lamellae their connected
+/// classes.
 void find_lamellae(const FilmMesh& mesh, Topology& topology) {
   topology.corner_dof.resize(mesh.triangle.size());
   std::vector<std::pair<Phase, Phase>> pair_of_dof;
@@ -102,9 +104,12 @@ void find_border_edges(const FilmMesh& mesh, Topology& topology) {
   const std::vector<Side> sides = sorted_sides(mesh);
   for (std::size_t first = 0, last; first < sides.size(); first = last) {
     last = first;
-    while (last < sides.size() && sides[last].low == sides[first].low && sides[last].high == sides[first].high)
+    while (last < sides.size() && sides[last].low == sides[first].low &&
+           sides[last].high == sides[first].high)
       ++last;
-    const auto triangle = [&](std::size_t s) -> const FilmTriangle& { return mesh.triangle[sides[s].triangle]; };
+    const auto triangle = [&](std::size_t s) -> const FilmTriangle& {
+      return mesh.triangle[sides[s].triangle];
+    };
     bool conforming = false;
     if (last - first == 2) {
       conforming = same_phases(triangle(first), triangle(first + 1)) &&
@@ -139,7 +144,8 @@ PhaseSet phases_of(const FilmMesh& mesh, const BorderEdge& edge) {
 }
 
 /// Walks along a border from one dof to the next and lists the vertices in order.
-std::vector<int> walk(const Topology& topology, const std::vector<std::vector<int>>& edges_of_dof, int start_dof) {
+std::vector<int> walk(const Topology& topology, const std::vector<std::vector<int>>& edges_of_dof,
+                      int start_dof) {
   std::vector<int> vertices{topology.border_dof[start_dof].vertex};
   std::vector<int> walked;
   for (int dof = start_dof;;) {

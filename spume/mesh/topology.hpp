@@ -21,10 +21,10 @@ struct PlateauBorder {
 };
 /// One edge of a Plateau border.
 struct BorderEdge {
-  std::array<int, 2> vertex;         ///< vertex[0] < vertex[1]
-  std::array<int, 2> border_dof;     ///< of the two ends
+  std::array<int, 2> vertex;      ///< vertex[0] < vertex[1]
+  std::array<int, 2> border_dof;  ///< of the two ends
   int border;
-  std::array<int, 3> triangle;       ///< the three that meet here
+  std::array<int, 3> triangle;  ///< the three that meet here
 };
 /// Unknown of a film: one per vertex and lamella, since η may differ between lamellae that meet at a border.
 struct FilmDof {
@@ -40,22 +40,23 @@ struct Topology {
   // vertices
   std::vector<PhaseSet> vertex_phases;
   std::vector<VertexKind> vertex_kind;
-  std::vector<int> star_offset, star_triangle;  ///< triangles of vertex v: star_triangle[star_offset[v] … star_offset[v+1])
+  std::vector<int> star_offset,
+      star_triangle;  ///< triangles of vertex v: star_triangle[star_offset[v] … star_offset[v+1])
 
   // lamellae
   std::vector<Lamella> lamella;
   std::vector<int> triangle_lamella;
   std::vector<FilmDof> film_dof;
-  std::vector<std::array<int, 3>> corner_dof;   ///< film dof of each corner of each triangle
+  std::vector<std::array<int, 3>> corner_dof;  ///< film dof of each corner of each triangle
 
   // Plateau borders and junctions
   std::vector<PlateauBorder> border;
   std::vector<BorderEdge> border_edge;
   std::vector<BorderDof> border_dof;
-  std::vector<int> junction;                    ///< vertices
+  std::vector<int> junction;  ///< vertices
 
-  /// Edges that are neither inside one lamella (two triangles, opposite directions) nor on a border (three triangles
-  /// of three phase pairs of three phases). Zero in a healthy foam.
+  /// Edges that are neither inside one lamella (two triangles, opposite directions) nor on a border (three
+  /// triangles of three phase pairs of three phases). Zero in a healthy foam.
   int n_nonconforming_edges = 0;
 
   int n_lamellae() const { return static_cast<int>(lamella.size()); }

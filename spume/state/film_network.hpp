@@ -11,9 +11,9 @@ namespace spume::state {
 struct FilmNetwork {
   mesh::FilmMesh mesh;
   mesh::Topology topology;
-  std::vector<double> half_thickness;      ///< η per film dof [m]
-  std::vector<double> curvature_squared;   ///< k = k₁² + k₂² per film dof [1/m²]
-  std::vector<double> border_area;         ///< λ per vertex [m²]; one value at a junction; unused (0) inside films
+  std::vector<double> half_thickness;     ///< η per film dof [m]
+  std::vector<double> curvature_squared;  ///< k = k₁² + k₂² per film dof [1/m²]
+  std::vector<double> border_area;  ///< λ per vertex [m²]; one value at a junction; unused (0) inside films
 };
 
 }  // namespace spume::state

@@ -11,7 +11,7 @@ namespace spume::state {
 struct Foam {
   explicit Foam(const grid::Grid& grid) : gas(grid) {}
 
-  double time = 0;        ///< [s]
+  double time = 0;  ///< [s]
   mesh::FilmMesh films;
   Phases phases;
   FilmLiquid liquid;

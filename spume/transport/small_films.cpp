@@ -78,8 +78,8 @@ double borrow_from_rim(const LiquidMesh& mesh, int lamella, double wanted, std::
   return fraction * available;
 }
 
-/// Takes up to `wanted` from donors, each by its weight and only from what it has above `keep` a unit of measure: asked at
-/// every step, a donor would be emptied by fractions of all it has.
+/// Takes up to `wanted` from donors, each by its weight and only from what it has above `keep` a unit of
+/// measure: asked at every step, a donor would be emptied by fractions of all it has.
 double borrow(const Donors& donors, double keep, std::span<const double> measure, double wanted,
               std::span<double> volume) {
   const auto excess = [&](std::size_t n) {
@@ -95,7 +95,8 @@ double borrow(const Donors& donors, double keep, std::span<const double> measure
 }
 
 /// Volume a unit of area of all grown lamellae [m].
-double grown_thickness(const LiquidMesh& mesh, std::span<const char> is_young, std::span<const double> volume) {
+double grown_thickness(const LiquidMesh& mesh, std::span<const char> is_young,
+                       std::span<const double> volume) {
   double sum = 0, area = 0;
   for (std::size_t d = 0; d < volume.size(); ++d) {
     if (is_young[mesh.lamella_of_dof[d]]) continue;
@@ -105,10 +106,10 @@ double grown_thickness(const LiquidMesh& mesh, std::span<const char> is_young, s
   return area > 0 ? sum / area : 0;
 }
 
-/// A film that is born is drawn out of the Plateau borders around it, not out of the thin rims of its neighbours: the
-/// floor refers to the mean of all grown films where that is thicker than the films nearby.
-double fill_lamella(const LiquidMesh& mesh, int lamella, std::span<const char> is_young, double grown, double h,
-                    const TransportParameters& parameters, NewLiquid liquid) {
+/// A film that is born is drawn out of the Plateau borders around it, not out of the thin rims of its
+/// neighbours: the floor refers to the mean of all grown films where that is thicker than the films nearby.
+double fill_lamella(const LiquidMesh& mesh, int lamella, std::span<const char> is_young, double grown,
+                    double h, const TransportParameters& parameters, NewLiquid liquid) {
   std::vector<Vec3> points;
   for (int d : mesh.dofs_of_lamella[lamella]) points.push_back(mesh.film_position(d));
   const Donors donors = find_donors(mesh.film_bins, points, parameters.donor_radius * h, 3, Falloff::Linear,
@@ -116,7 +117,8 @@ double fill_lamella(const LiquidMesh& mesh, int lamella, std::span<const char> i
   const double donor_area = donors.sum(mesh.dof_area);
   if (!(donor_area > 0)) return 0;
   const double mean = donors.sum(liquid.film) / donor_area;
-  const Shortage shortage{mesh.dofs_of_lamella[lamella], mesh.dof_area, parameters.floor * std::max(mean, grown)};
+  const Shortage shortage{mesh.dofs_of_lamella[lamella], mesh.dof_area,
+                          parameters.floor * std::max(mean, grown)};
   const double wanted = shortage.sum(liquid.film);
   if (!(wanted > 0)) return 0;
   double moved = borrow_from_rim(mesh, lamella, wanted, liquid.border);

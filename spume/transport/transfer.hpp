@@ -15,7 +15,8 @@ struct TransportParameters {
   double border_radius = 3.0;   ///< borders that take a vanished film's liquid or lend to a new border [h]
   double small_area = 10;       ///< films below this × h² are small: capped, and young
   double cap = 2.0;             ///< a small film keeps at most this × its neighbours' mean thickness
-  double floor = 0.5;           ///< a young film is filled up to this × the mean thickness (of its neighbours or of all)
+  double floor =
+      0.5;  ///< a young film is filled up to this × the mean thickness (of its neighbours or of all)
 };
 
 struct TransferReport {

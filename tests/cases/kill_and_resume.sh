@@ -14,7 +14,7 @@ kill_in() { # run folder, stage, ruptures
   "$program" run "$case_file" -o "$1" > /dev/null 2>&1 &
   local run=$! stage=$2 ruptures=$3
   for _ in $(seq 3000); do
-    if [ -f "$1/history.csv" ] && [ "$(tail -n 1 "$1/history.csv" | cut -d, -f2)" = "$stage" ] &&
+    if [ -d "$1/checkpoint" ] && [ "$(tail -n 1 "$1/history.csv" | cut -d, -f2)" = "$stage" ] &&
        [ "$(grep -c ',rupture,' "$1/events.csv" || true)" -ge "$ruptures" ]; then
       break
     fi

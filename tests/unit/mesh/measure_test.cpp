@@ -13,7 +13,8 @@ FilmMesh two_cubes() {
   const auto vertex = [](int i, int j, int k) { return (k * 2 + j) * 3 + i; };
   for (int k = 0; k < 2; ++k)
     for (int j = 0; j < 2; ++j)
-      for (int i = 0; i < 3; ++i) mesh.position.push_back(Vec3{i - 1.0, j * 1.0, k * 1.0} + Vec3{100, 50, -70});
+      for (int i = 0; i < 3; ++i)
+        mesh.position.push_back(Vec3{i - 1.0, j * 1.0, k * 1.0} + Vec3{100, 50, -70});
   const auto quad = [&](int a, int b, int c, int d, Phase p, Phase q) {  // counter-clockwise seen from q
     mesh.triangle.push_back(make_triangle(a, b, c, p, q));
     mesh.triangle.push_back(make_triangle(a, c, d, p, q));
@@ -63,7 +64,8 @@ TEST(Measure, lumped_areas_and_lengths_add_up) {
   EXPECT_NEAR(length, border_length, 1e-13 * length);
 }
 
-// Both gradients against central differences of step δ: the error is δ² times a third derivative of order one.
+// Both gradients against central differences of step δ: the error is δ² times a third derivative of order
+// one.
 TEST(Measure, gradients_of_area_and_volume_agree_with_differences) {
   FilmMesh mesh = two_cubes();
   shake(mesh, 0.1);
@@ -88,7 +90,8 @@ TEST(Measure, gradients_of_area_and_volume_agree_with_differences) {
     }
 }
 
-/// Splits every triangle in four; new vertices at edge midpoints, pushed onto the unit sphere about the origin.
+/// Splits every triangle in four; new vertices at edge midpoints, pushed onto the unit sphere about the
+/// origin.
 FilmMesh refined_sphere(int levels) {
   FilmMesh mesh;
   mesh.position = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -121,7 +124,8 @@ FilmMesh refined_sphere(int levels) {
   return mesh;
 }
 
-// Young–Laplace for a film of tension 1 on a sphere of radius 1: P = 2. The error of an inscribed mesh is second order.
+// Young–Laplace for a film of tension 1 on a sphere of radius 1: P = 2. The error of an inscribed mesh is
+// second order.
 TEST(Measure, film_pressure_of_a_sphere_converges_at_second_order) {
   double error[3];
   for (int level = 2; level < 5; ++level) {

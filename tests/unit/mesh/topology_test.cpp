@@ -8,8 +8,8 @@
 namespace spume::mesh {
 namespace {
 
-/// Two pyramids of `n` sides glued at their base: the coarsest double bubble. Vertices: ring 0 … n−1, apex of bubble 1,
-/// apex of bubble 2, centre of the septum.
+/// Two pyramids of `n` sides glued at their base: the coarsest double bubble. Vertices: ring 0 … n−1, apex of
+/// bubble 1, apex of bubble 2, centre of the septum.
 FilmMesh double_pyramid(int n) {
   FilmMesh mesh;
   for (int i = 0; i < n; ++i) {
@@ -27,7 +27,8 @@ FilmMesh double_pyramid(int n) {
   return mesh;
 }
 
-/// A regular tetrahedron cut into four bubbles by its centre: four caps, six inner films, ten borders, five junctions.
+/// A regular tetrahedron cut into four bubbles by its centre: four caps, six inner films, ten borders, five
+/// junctions.
 FilmMesh four_cells() {
   FilmMesh mesh;
   mesh.position = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}, {0, 0, 0}};
@@ -39,7 +40,8 @@ FilmMesh four_cells() {
                                     : make_triangle(face[p][0], face[p][1], face[p][2], 0, p + 1));
   }
   for (int p = 0; p < 4; ++p)
-    for (int q = p + 1; q < 4; ++q) {  // the film between cells p and q contains the edge of the two other corners
+    for (int q = p + 1; q < 4;
+         ++q) {  // the film between cells p and q contains the edge of the two other corners
       int ends[2], n = 0;
       for (int c = 0; c < 4; ++c)
         if (c != p && c != q) ends[n++] = c;

@@ -21,7 +21,8 @@ TEST(Cluster, is_the_same_for_the_same_seed_and_another_for_another) {
 }
 
 TEST(Cluster, sits_around_its_centre_and_every_bubble_touches_another) {
-  ClusterShape shape{.count = 8, .mean_diameter = 3e-3, .spread = 0.1, .seed = 2, .center = Vec3{1e-3, 0, -1e-3}};
+  ClusterShape shape{
+      .count = 8, .mean_diameter = 3e-3, .spread = 0.1, .seed = 2, .center = Vec3{1e-3, 0, -1e-3}};
   const auto bubbles = make_cluster(shape, box);
   Vec3 centroid;
   for (const auto& bubble : bubbles) centroid += bubble.center / 8.0;
@@ -33,8 +34,8 @@ TEST(Cluster, sits_around_its_centre_and_every_bubble_touches_another) {
     }));
 }
 
-// Six spheres at the corners of an octahedron overlap their neighbours but leave its middle free: with the centres at
-// distance a from the middle, neighbours are a√2 apart and reach the middle only for r > a.
+// Six spheres at the corners of an octahedron overlap their neighbours but leave its middle free: with the
+// centres at distance a from the middle, neighbours are a√2 apart and reach the middle only for r > a.
 TEST(EnclosedPockets, finds_the_gap_inside_an_octahedron_of_spheres) {
   const double a = 3e-3;
   const auto octahedron = [&](double r) {
@@ -51,7 +52,7 @@ TEST(EnclosedPockets, finds_the_gap_inside_an_octahedron_of_spheres) {
     const auto pocket = enclosed_pockets(octahedron(r), box);
     return std::count(pocket.begin(), pocket.end(), 1);
   };
-  EXPECT_EQ(count(0.6 * a), 0);    // gaps between three spheres (their middle at a√(2/3) = 0.816 a) still open
+  EXPECT_EQ(count(0.6 * a), 0);  // gaps between three spheres (their middle at a√(2/3) = 0.816 a) still open
   EXPECT_GT(count(0.9 * a), 0);
   EXPECT_EQ(count(1.05 * a), 0);
 }
@@ -60,7 +61,8 @@ TEST(PowerPotential, vanishes_on_the_ellipsoid_and_ties_on_the_power_plane) {
   const BubbleShape ellipsoid{.center = {1, 2, 3}, .semi_axes = {1, 2, 3}};
   EXPECT_NEAR(power_potential(ellipsoid, {2, 2, 3}, 1), 0, 1e-15);
   EXPECT_NEAR(power_potential(ellipsoid, {1, 2, 0}, 1), 0, 1e-15);
-  const BubbleShape a{.center = {0, 0, 0}, .semi_axes = {2, 2, 2}}, b{.center = {3, 0, 0}, .semi_axes = {1, 1, 1}};
+  const BubbleShape a{.center = {0, 0, 0}, .semi_axes = {2, 2, 2}},
+      b{.center = {3, 0, 0}, .semi_axes = {1, 1, 1}};
   const double x = (9 + 4 - 1) / 6.0;  // (d² + r_a² − r_b²) / 2d
   EXPECT_NEAR(power_potential(a, {x, 0.3, -0.7}, 1.5), power_potential(b, {x, 0.3, -0.7}, 1.5), 1e-14);
 }

@@ -10,14 +10,16 @@ namespace {
 
 constexpr double sigma = 0.03, area = 1e-4;
 
-/// Feeds a damped oscillation of relative amplitude `amplitude` for `duration` periods of 1 s, 50 samples a period.
+/// Feeds a damped oscillation of relative amplitude `amplitude` for `duration` periods of 1 s, 50 samples a
+/// period.
 EquilibriumMeasure after(double amplitude, double duration, double shrinking = 0) {
   RearrangeState rearrange;
   EquilibriumMeasure measure;
   for (double t = 0; t <= duration + 1e-9; t += 0.02) {
     rearrange.elapsed = t;
     const double speed = amplitude * std::sin(2 * std::numbers::pi * t);
-    measure = measure_equilibrium(rearrange, 1.0, 2 * sigma * area * speed * speed, area * (1 - shrinking * t), sigma);
+    measure = measure_equilibrium(rearrange, 1.0, 2 * sigma * area * speed * speed,
+                                  area * (1 - shrinking * t), sigma);
   }
   return measure;
 }
