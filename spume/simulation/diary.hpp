@@ -18,6 +18,7 @@ struct StepRecord {
   double dt = 0;                  ///< [s]
   double kinetic_energy = 0;      ///< [J]
   double max_speed = 0;           ///< [m/s]
+  std::string limited_by = {};    ///< what set dt
   double correction = 0;          ///< of film energy by restored volumes and reconstruction [J]
   double min_half_thickness = 0;  ///< [m]
 };

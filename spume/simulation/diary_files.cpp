@@ -13,7 +13,7 @@ namespace {
 
 using io::Column;
 
-constexpr std::array<Column, 17> history{{
+constexpr std::array<Column, 18> history{{
     {"step", "number of the step since the start of the run"},
     {"stage", "rearrange, drain or rupture"},
     {"time_s", "simulated time after the step"},
@@ -34,6 +34,7 @@ constexpr std::array<Column, 17> history{{
     {"correction_J",
      "change of the film energy 2 sigma A in this step by what is no motion: restored volumes, "
      "reconstruction"},
+    {"limited_by", "what set dt_s: capillary waves, advection, error, ..."},
 }};
 
 constexpr std::array<Column, 13> bubbles{{

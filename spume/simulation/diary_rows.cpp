@@ -117,7 +117,8 @@ Row history_row(const state::Foam& foam, const mesh::Topology& topology, const S
           topology.n_junctions(),
           record.max_speed,
           max_volume_error(foam),
-          record.correction};
+          record.correction,
+          record.limited_by};
 }
 
 std::vector<Row> bubble_rows(const state::Foam& foam, const mesh::Topology& topology,

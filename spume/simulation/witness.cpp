@@ -41,6 +41,7 @@ void Witness::step(RunState& run, const mesh::Topology& topology, StepRecord rec
                    const std::string& limited_by) {
   record.step = run.step++;
   record.stage = run.stage;
+  record.limited_by = limited_by;
   run.has_frame = false;
   diary_.record_step(run.foam, topology, record);
   show(run, record.dt, limited_by);

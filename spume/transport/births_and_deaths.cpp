@@ -54,9 +54,11 @@ void give_away_gone(const LiquidMesh& from, std::span<const double> old_film,
   for (int group : film_links.group_of_old) report.n_gone_lamellae += group < 0;
   for (int group : border_links.group_of_old) report.n_gone_borders += group < 0;
   for (std::size_t d = 0; d < old_film.size(); ++d)
-    if (film_links.group_of_old[from.lamella_of_dof[d]] < 0) give(from.film_position(d), old_film[d]);
+    if (film_links.group_of_old[from.lamella_of_dof[d]] < 0)
+      give(from.film_position(static_cast<int>(d)), old_film[d]);
   for (std::size_t d = 0; d < old_border.size(); ++d)
-    if (border_links.group_of_old[from.border_of_dof[d]] < 0) give(from.border_position(d), old_border[d]);
+    if (border_links.group_of_old[from.border_of_dof[d]] < 0)
+      give(from.border_position(static_cast<int>(d)), old_border[d]);
 }
 
 namespace {

@@ -94,7 +94,7 @@ void find_own_triples(const LiquidMesh& from, BorderLocator& locator, const Liqu
   for (std::size_t d = 0; d < footprint.point.size(); ++d) {
     const int border = to.border_of_dof[d];
     const auto& phases = to.topology.border[border].phases;
-    footprint.point[d] = locator.closest(to.border_position(d), reach, [&](int edge) {
+    footprint.point[d] = locator.closest(to.border_position(static_cast<int>(d)), reach, [&](int edge) {
       return from.topology.border[from.topology.border_edge[edge].border].phases == phases;
     });
     const int edge = footprint.point[d].edge;
@@ -117,7 +117,7 @@ void find_renamed(const LiquidMesh& from, BorderLocator& locator, const LiquidMe
     const int border = to.border_of_dof[d];
     if (linked[border] || !(to.border_length[border] > 0)) continue;
     const auto& phases = to.topology.border[border].phases;
-    footprint.point[d] = locator.closest(to.border_position(d), reach, [&](int edge) {
+    footprint.point[d] = locator.closest(to.border_position(static_cast<int>(d)), reach, [&](int edge) {
       const auto& old_border = from.topology.border[from.topology.border_edge[edge].border];
       return n_shared(old_border.phases, phases) >= 2 &&
              std::abs(dot(direction(from, edge), tangent[d])) > parallel;

@@ -65,7 +65,7 @@ void find_own_pairs(const LiquidMesh& from, const mesh::TriangleLocator& locator
   for (std::size_t d = 0; d < footprint.point.size(); ++d) {
     const int lamella = to.lamella_of_dof[d];
     const auto& own = to.topology.lamella[lamella];
-    footprint.point[d] = locator.closest(to.film_position(d), reach, [&](int t) {
+    footprint.point[d] = locator.closest(to.film_position(static_cast<int>(d)), reach, [&](int t) {
       const Triangle& triangle = from.films.triangle[t];
       return triangle.phase_a == own.phase_a && triangle.phase_b == own.phase_b;
     });
@@ -87,7 +87,7 @@ void find_renamed(const LiquidMesh& from, const mesh::TriangleLocator& locator, 
     const int lamella = to.lamella_of_dof[d];
     if (linked[lamella] || !(to.lamella_area[lamella] > 0)) continue;
     const auto& own = to.topology.lamella[lamella];
-    footprint.point[d] = locator.closest(to.film_position(d), reach, [&](int t) {
+    footprint.point[d] = locator.closest(to.film_position(static_cast<int>(d)), reach, [&](int t) {
       const Triangle& triangle = from.films.triangle[t];
       const bool shares_phase = triangle.phase_a == own.phase_a || triangle.phase_a == own.phase_b ||
                                 triangle.phase_b == own.phase_a || triangle.phase_b == own.phase_b;

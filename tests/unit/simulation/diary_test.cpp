@@ -82,7 +82,7 @@ TEST(Diary, FilesStartWithTheColumnsOfTheManual) {
             "step,stage,time_s,dt_s,film_area_m2,kinetic_energy_J,lamella_liquid_m3,border_liquid_m3,liquid_"
             "error_rel,"
             "min_half_thickness_m,bubbles,lamellae,borders,junctions,max_speed_m_s,max_volume_error_rel,"
-            "correction_J\n");
+            "correction_J,limited_by\n");
   EXPECT_EQ(f.text("bubbles.csv"),
             "time_s,bubble,volume_m3,target_volume_m3,area_m2,pressure_Pa,x_m,y_m,z_m,extent_x_m,extent_y_m,"
             "extent_z_m,"
