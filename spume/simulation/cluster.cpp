@@ -47,12 +47,6 @@ void draw_together(std::vector<BubbleShape>& bubbles) {
   }
 }
 
-double mean_radius(const std::vector<BubbleShape>& bubbles) {
-  double sum = 0;
-  for (const auto& bubble : bubbles) sum += equivalent_radius(bubble);
-  return sum / static_cast<double>(bubbles.size());
-}
-
 bool inside_any(const std::vector<BubbleShape>& bubbles, const Vec3& x, double radius) {
   return std::any_of(bubbles.begin(), bubbles.end(),
                      [&](const BubbleShape& bubble) { return power_potential(bubble, x, radius) > 0; });
@@ -84,6 +78,12 @@ double union_volume(const std::vector<BubbleShape>& bubbles) {
 
 double equivalent_radius(const BubbleShape& bubble) {
   return std::cbrt(bubble.semi_axes.x * bubble.semi_axes.y * bubble.semi_axes.z);
+}
+
+double mean_radius(const std::vector<BubbleShape>& bubbles) {
+  double sum = 0;
+  for (const auto& bubble : bubbles) sum += equivalent_radius(bubble);
+  return sum / static_cast<double>(bubbles.size());
 }
 
 double power_potential(const BubbleShape& bubble, const Vec3& x, double mean_radius) {

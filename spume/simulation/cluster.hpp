@@ -17,7 +17,8 @@ std::vector<BubbleShape> make_cluster(const ClusterShape& cluster, const grid::B
 /// 0 is the ellipsoid and whose ties with others of the same R̄ are power planes where both are spheres.
 double power_potential(const BubbleShape& bubble, const Vec3& x, double mean_radius);
 
-double equivalent_radius(const BubbleShape& bubble);  ///< of the sphere of the same volume [m]
+double equivalent_radius(const BubbleShape& bubble);          ///< of the sphere of the same volume [m]
+double mean_radius(const std::vector<BubbleShape>& bubbles);  ///< of those spheres [m]
 
 /// Cells of the box (i fastest) that lie outside all bubbles but are cut off from the edge of the box.
 std::vector<char> enclosed_pockets(const std::vector<BubbleShape>& bubbles, const grid::Box& box);

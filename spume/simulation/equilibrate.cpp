@@ -2,17 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "spume/simulation/equilibrium.hpp"
 
 namespace spume::simulation {
 
 namespace {
-
-double mean_radius(const state::Phases& phases) {
-  double volume = 0;
-  for (int p = 1; p < phases.count(); ++p) volume += phases.target_volume[p];
-  return std::cbrt(volume / std::max(1, phases.n_bubbles()) * 3 / (4 * std::numbers::pi));
-}
 
 double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   double largest = 0;
@@ -26,7 +21,7 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
                               std::vector<state::Event>& events, const OnRelaxStep& on_step) {
   constexpr int most_steps = 2000, steps_between_reconstructions = 25;
   constexpr double largest_motion_cells = 0.5, rest = 1e-6;
-  const double radius = mean_radius(foam.phases);
+  const double radius = mean_bubble_radius(foam.phases);
   const double tau = 0.05 * radius * radius;
 
   EquilibrateReport report;

@@ -6,12 +6,16 @@
 
 namespace spume::simulation {
 
-double equilibrium_window(const state::Phases& phases, const state::Materials& materials) {
+double mean_bubble_radius(const state::Phases& phases) {
   double volume = 0;
   for (int p = 1; p < phases.count(); ++p) volume += phases.target_volume[p];
-  const double mean_volume = volume / std::max(1, phases.n_bubbles());
-  const double radius_cubed = mean_volume * 3 / (4 * std::numbers::pi);
-  return 3 * std::sqrt(materials.gas.density * radius_cubed / (2 * materials.film.surface_tension));
+  return std::cbrt(volume / std::max(1, phases.n_bubbles()) * 3 / (4 * std::numbers::pi));
+}
+
+double equilibrium_window(const state::Phases& phases, const state::Materials& materials) {
+  const double radius = mean_bubble_radius(phases);
+  return 3 *
+         std::sqrt(materials.gas.density * radius * radius * radius / (2 * materials.film.surface_tension));
 }
 
 EquilibriumMeasure measure_equilibrium(RearrangeState& rearrange, double window, double kinetic_energy,

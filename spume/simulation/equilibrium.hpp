@@ -18,6 +18,9 @@ struct EquilibriumMeasure {
   }
 };
 
+/// Radius of the sphere of the mean bubble volume [m].
+double mean_bubble_radius(const state::Phases& phases);
+
 /// Length of the window [s].
 double equilibrium_window(const state::Phases& phases, const state::Materials& materials);
 

@@ -29,12 +29,6 @@ void check_inside(const std::vector<BubbleShape>& bubbles, const grid::Box& box)
                         box.lower[d], box.upper[d]));
 }
 
-double mean_radius(const std::vector<BubbleShape>& bubbles) {
-  double sum = 0;
-  for (const auto& bubble : bubbles) sum += equivalent_radius(bubble);
-  return sum / static_cast<double>(bubbles.size());
-}
-
 /// Films between the power cells of the bubbles. Where the case has a cluster, gas enclosed between bubbles
 /// is shared by them; among the user's own bubbles it becomes a bubble of its own.
 interface::Reconstruction films_of(const Case& run_case, const grid::Grid& grid,
