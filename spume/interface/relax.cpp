@@ -59,8 +59,8 @@ void solve_for_positions(const SparseMatrix& matrix, const Eigen::VectorXd& mass
   solver.setTolerance(1e-9);
   solver.setMaxIterations(2000);
   const int n = films.n_vertices();
-  const Vec3 origin =
-      films.position.front();  // differences keep the digits that positions in a large box would lose
+  // Differences keep the digits that positions in a large box would lose.
+  const Vec3 origin = films.position.front();
   for (int axis = 0; axis < 3; ++axis) {
     Eigen::VectorXd old_position(n), right(n);
     for (int v = 0; v < n; ++v) {

@@ -65,9 +65,7 @@ state::Event describe(double time, const interface::ReconstructReport::PhaseChan
 FilmUpdate reconstruct_films(const grid::Grid& grid, const Case& run_case, state::Foam& foam) {
   const mesh::Topology old_topology = mesh::build_topology(foam.films);
   const double old_area = mesh::film_area(foam.films);
-  interface::ReconstructParameters parameters = run_case.reconstruct;
-  parameters.conserve_volumes = run_case.rearrangement.conserve_volumes;
-  auto reconstruction = interface::reconstruct(grid, foam.films, foam.phases, parameters);
+  auto reconstruction = interface::reconstruct(grid, foam.films, foam.phases, run_case.reconstruct);
 
   FilmUpdate update;
   update.reconstruction = std::move(reconstruction.report);

@@ -18,8 +18,8 @@ struct FilmUpdate {
   interface::ReconstructReport reconstruction;
   transport::TransferReport transfer;
   double energy_correction = 0;  ///< change of 2σA by the reconstruction [J]
-  std::vector<state::Event>
-      events;  ///< T1, bubble split, pocket, piece absorbed, bubble lost, poor reconstruction
+  /// T1, bubble split, pocket, piece absorbed, bubble lost, poor reconstruction.
+  std::vector<state::Event> events;
 };
 
 /// Reconstructs the films of a foam and carries the liquid over. A change of the set of phase pairs that

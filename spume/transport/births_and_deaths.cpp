@@ -39,6 +39,24 @@ double fill_piece(const Pieces& pieces, int piece, std::span<const Vec3> points,
   return fraction * lent;
 }
 
+/// The first border of a foam has no other border to borrow from: it takes a tenth of the liquid of the film
+/// dofs along it.
+double draw_from_films(const LiquidMesh& mesh, int border, NewLiquid liquid) {
+  constexpr double fraction = 0.1;
+  std::vector<int> dof_at(mesh.films.position.size(), -1);
+  for (int d : mesh.dofs_of_border[border]) dof_at[mesh.topology.border_dof[d].vertex] = d;
+  double drawn = 0;
+  for (std::size_t f = 0; f < mesh.topology.film_dof.size(); ++f) {
+    const int d = dof_at[mesh.topology.film_dof[f].vertex];
+    if (d < 0) continue;
+    const double share = fraction * liquid.film[f];
+    liquid.film[f] -= share;
+    liquid.border[d] += share;
+    drawn += share;
+  }
+  return drawn;
+}
+
 }  // namespace
 
 void give_away_gone(const LiquidMesh& from, std::span<const double> old_film,
@@ -60,28 +78,6 @@ void give_away_gone(const LiquidMesh& from, std::span<const double> old_film,
     if (border_links.group_of_old[from.border_of_dof[d]] < 0)
       give(from.border_position(static_cast<int>(d)), old_border[d]);
 }
-
-namespace {
-
-/// The first border of a foam has no other border to borrow from: it takes a tenth of the liquid of the film
-/// dofs along it.
-double draw_from_films(const LiquidMesh& mesh, int border, NewLiquid liquid) {
-  constexpr double fraction = 0.1;
-  std::vector<int> dof_at(mesh.films.position.size(), -1);
-  for (int d : mesh.dofs_of_border[border]) dof_at[mesh.topology.border_dof[d].vertex] = d;
-  double drawn = 0;
-  for (std::size_t f = 0; f < mesh.topology.film_dof.size(); ++f) {
-    const int d = dof_at[mesh.topology.film_dof[f].vertex];
-    if (d < 0) continue;
-    const double share = fraction * liquid.film[f];
-    liquid.film[f] -= share;
-    liquid.border[d] += share;
-    drawn += share;
-  }
-  return drawn;
-}
-
-}  // namespace
 
 void fill_born(const Links& film_links, const Links& border_links, const LiquidMesh& to, double h,
                const TransportParameters& parameters, NewLiquid liquid, TransferReport& report) {
