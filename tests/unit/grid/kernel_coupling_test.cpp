@@ -45,7 +45,7 @@ TEST_P(KernelCouplingOn, SpreadAndSampleAreAdjoint) {
   for (int c = 0; c < 3; ++c) fill_random(u[c], 10 * c + 1);
   const std::vector<Vec3> points = random_points(grid.box(), 500), forces = random_vectors(points.size());
   for (const double half_width : {1.0, 1.5, 2.0, 2.3}) {
-    const KernelCoupling coupling{half_width};
+    const KernelCoupling coupling{half_width, 0.3};
     for (int c = 0; c < 3; ++c) density[c].fill(0);
     coupling.spread(points, forces, density);
     std::vector<Vec3> velocities;
@@ -74,7 +74,7 @@ TEST_P(KernelCouplingOn, SamplingAConstantEvenFieldGivesTheConstant) {
   }
   std::vector<Vec3> velocities;
   for (const double half_width : {1.0, 1.5, 2.0}) {
-    KernelCoupling{half_width}.sample(u, random_points(grid.box(), 200), velocities);
+    KernelCoupling{half_width, 0.3}.sample(u, random_points(grid.box(), 200), velocities);
     for (const Vec3& v : velocities) EXPECT_NEAR(norm(v - Vec3{1, 2, 3}), 0, 1e-14);
   }
 }
@@ -126,7 +126,7 @@ TEST_P(KernelCouplingOn, SampleIsTheConvolutionWithTheContinuedField) {
   const std::vector<Vec3> points = random_points(grid.box(), 8);
   std::vector<Vec3> velocities;
   for (const double half_width : {1.5, 2.3}) {
-    KernelCoupling{half_width}.sample(u, points, velocities);
+    KernelCoupling{half_width, 0}.sample(u, points, velocities);
     for (std::size_t p = 0; p < points.size(); ++p)
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(velocities[p][c], sample_by_definition(u[c], points[p], half_width * grid.h()), 1e-13);
@@ -145,6 +145,47 @@ TEST_P(KernelCouplingOn, ResultsAreTheSameToTheLastBitOnAnyNumberOfRanks) {
   KernelCoupling{}.sample(u_serial, points, velocities_serial);
   for (int c = 0; c < 3; ++c) EXPECT_EQ(gather(u[c]), gather(u_serial[c]));
   EXPECT_EQ(velocities, velocities_serial);
+}
+
+// The sharpened kernel samples u as the plain one samples u − a h² Δ_h u.
+TEST_P(KernelCouplingOn, SharpeningIsTheLaplacianOfTheGrid) {
+  const Grid grid(Communicator::world(), GetParam().box);
+  VectorField u(grid), sharp(grid);
+  constexpr double a = 0.3;
+  for (int c = 0; c < 3; ++c) {
+    fill_random(u[c], 100 * c + 7);
+    const auto ghosts = ghosted<1>(u[c]);
+    const auto out = owned(sharp[c]);
+    for (int k = grid.z_begin(); k < grid.z_end(); ++k)
+      for (int j = 0; j < grid.cells().j; ++j)
+        for (int i = 0; i < grid.cells().i; ++i)
+          out(i, j, k) = (1 + 6 * a) * ghosts(i, j, k) -
+                         a * (ghosts(i - 1, j, k) + ghosts(i + 1, j, k) + ghosts(i, j - 1, k) +
+                              ghosts(i, j + 1, k) + ghosts(i, j, k - 1) + ghosts(i, j, k + 1));
+  }
+  const std::vector<Vec3> points = random_points(grid.box(), 50);
+  std::vector<Vec3> of_sharp, sharpened;
+  KernelCoupling{1.5, 0}.sample(sharp, points, of_sharp);
+  KernelCoupling{1.5, a}.sample(u, points, sharpened);
+  for (std::size_t p = 0; p < points.size(); ++p) EXPECT_NEAR(norm(of_sharp[p] - sharpened[p]), 0, 1e-13);
+}
+
+// ∫ (1 − |K̂(q)|²)/q² dq = 0 over all q, with K̂ the transform of the cosine times 1 + a (2 sin(q/2))², lengths
+// in h. Beyond q = 400, |K̂|² < 1e-11 is left out and 1/q² integrated exactly.
+TEST(KernelCoupling, SharpeningRestoresTheCrestOfAWavesPressure) {
+  for (const auto& [zeta, a] : {std::pair{1.0, 0.157500},
+                                {KernelCoupling{}.half_width_cells, KernelCoupling{}.sharpening},
+                                {2.0, 0.508678}}) {
+    const double dq = 1e-3, last = 400;
+    double integral = 1 / last;
+    for (double q = dq / 2; q < last; q += dq) {
+      const double x = q * zeta, t = x / std::numbers::pi, s = 2 * std::sin(q / 2);
+      const double cosine = std::abs(t - 1) < 1e-9 ? 0.5 : std::sin(x) / (x * (1 - t * t));
+      const double kernel = cosine * (1 + a * s * s);
+      integral += (1 - kernel * kernel) / (q * q) * dq;
+    }
+    EXPECT_NEAR(integral, 0, 1e-5);
+  }
 }
 
 TEST(KernelCoupling, PointsOutsideAPeriodicBoxActAsTheirImages) {
