@@ -22,7 +22,8 @@ void fill_domain(const state::FilmNetwork& network, const Vec3& gravity,
                  std::span<const std::array<int, 3>> triangles, LamellaDomain& lamella) {
   std::vector<Vec3> position;
   for (int d : lamella.film_dof) {
-    position.push_back(network.mesh.position[network.topology.film_dof[d].vertex]);
+    const Vec3& x = network.mesh.position[network.topology.film_dof[d].vertex];
+    position.push_back(position.empty() ? x : network.mesh.domain.near(x, position.front()));
     lamella.curvature_squared.push_back(network.curvature_squared[d]);
     lamella.descent.push_back(dot(gravity, position.back() - position.front()));
   }

@@ -21,7 +21,7 @@ BorderNetwork build_border_network(const state::FilmNetwork& network, const Vec3
   }
   borders.length.assign(borders.size(), 0.0);
   for (const auto& edge : network.topology.border_edge) {
-    const Vec3 &x0 = position[edge.vertex[0]], &x1 = position[edge.vertex[1]];
+    const Vec3 x0 = position[edge.vertex[0]], x1 = x0 + network.mesh.edge(edge.vertex[0], edge.vertex[1]);
     const double h = fem::segment_length(x0, x1);
     if (!(h > 0)) throw_at("an edge of a Plateau border has no length", x0);
     const std::array<int, 2> unknown = {borders.unknown_of_vertex[edge.vertex[0]],

@@ -21,8 +21,7 @@ std::vector<SuctionSite> suction_sites(const state::FilmNetwork& network, const 
   const auto& topology = network.topology;
   std::vector<double> length(topology.film_dof.size(), 0.0);
   for (const auto& edge : topology.border_edge) {
-    const double h =
-        fem::segment_length(network.mesh.position[edge.vertex[0]], network.mesh.position[edge.vertex[1]]);
+    const double h = norm(network.mesh.edge(edge.vertex[0], edge.vertex[1]));
     for (int t : edge.triangle)
       for (int corner = 0; corner < 3; ++corner) {
         const int v = network.mesh.triangle[t].vertex[corner];

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "spume/base/domain.hpp"
 #include "spume/base/index3.hpp"
 #include "spume/base/vec3.hpp"
 
@@ -25,6 +26,7 @@ struct Box {
   double spacing() const { return (upper.x - lower.x) / cells.i; }
   Vec3 size() const { return upper - lower; }
   bool is_periodic() const;
+  Domain domain() const;  ///< as the films see it
 };
 
 }  // namespace spume::grid

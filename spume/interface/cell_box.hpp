@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -10,18 +11,14 @@
 
 namespace spume::interface {
 
-/// A block of cells of the grid: begin ≤ (i, j, k) < end. Arrays over it have i fastest, then j, k.
+/// A block of cells of the grid: begin ≤ (i, j, k) < end. Arrays over it have i fastest, then j, k. Along a
+/// periodic direction a block may reach over the edge of the grid, but never meets itself.
 struct CellBox {
   Index3 begin, end;
 
   bool empty() const { return begin.i >= end.i || begin.j >= end.j || begin.k >= end.k; }
   bool contains(int i, int j, int k) const {
     return i >= begin.i && i < end.i && j >= begin.j && j < end.j && k >= begin.k && k < end.k;
-  }
-  bool overlaps(const CellBox& b) const {
-    for (int d = 0; d < 3; ++d)
-      if (begin[d] >= b.end[d] || b.begin[d] >= end[d]) return false;
-    return true;
   }
   std::size_t size() const {
     if (empty()) return 0;
@@ -49,14 +46,50 @@ inline CellBox all_cells(const Index3& cells) {
   return {{0, 0, 0}, cells};
 }
 
-/// The box with `layers` more cells on every side, as far as the grid goes.
-inline CellBox grown(const CellBox& box, int layers, const Index3& cells) {
-  CellBox g = box;
-  for (int d = 0; d < 3; ++d) {
-    g.begin[d] = std::max(0, box.begin[d] - layers);
-    g.end[d] = std::min(cells[d], box.end[d] + layers);
+/// The cells of the grid, and the directions in which they repeat.
+struct Lattice {
+  Index3 cells;
+  std::array<bool, 3> periodic{false, false, false};
+
+  /// The image of coordinate c in begin … begin + n − 1; c itself in other directions.
+  int image(int c, int begin, int axis) const {
+    if (!periodic[axis]) return c;
+    const int n = cells[axis], r = (c - begin) % n;
+    return begin + (r < 0 ? r + n : r);
   }
-  return g;
+  /// The image of a cell that is in the block, if any is.
+  Index3 image_in(const CellBox& box, int i, int j, int k) const {
+    return {image(i, box.begin.i, 0), image(j, box.begin.j, 1), image(k, box.begin.k, 2)};
+  }
+  /// The block with `layers` more cells on every side: as far as the grid goes, or, along a periodic
+  /// direction, until it takes up all of it.
+  CellBox grown(const CellBox& box, int layers) const {
+    CellBox g = box;
+    for (int d = 0; d < 3; ++d) {
+      g.begin[d] -= layers;
+      g.end[d] += layers;
+      const bool all = periodic[d] && g.end[d] - g.begin[d] >= cells[d];
+      if (all || !periodic[d]) {
+        g.begin[d] = all ? 0 : std::max(0, g.begin[d]);
+        g.end[d] = all ? cells[d] : std::min(cells[d], g.end[d]);
+      }
+    }
+    return g;
+  }
+  /// Whether two blocks have a cell in common.
+  bool overlap(const CellBox& a, const CellBox& b) const {
+    for (int d = 0; d < 3; ++d) {
+      const int from_a = image(b.begin[d], a.begin[d], d);  // in front of the end of a, or of a's next image
+      const bool ahead = periodic[d] && from_a + (b.end[d] - b.begin[d]) > a.begin[d] + cells[d];
+      if (periodic[d] ? from_a >= a.end[d] && !ahead : a.begin[d] >= b.end[d] || b.begin[d] >= a.end[d])
+        return false;
+    }
+    return true;
+  }
+};
+
+inline Lattice lattice_of(const grid::Box& box) {
+  return {box.cells, box.domain().periodic};
 }
 
 /// Calls body(i, j, k) for every cell of a box, i fastest.
@@ -65,6 +98,23 @@ void for_each_cell(const CellBox& box, Body&& body) {
   for (int k = box.begin.k; k < box.end.k; ++k)
     for (int j = box.begin.j; j < box.end.j; ++j)
       for (int i = box.begin.i; i < box.end.i; ++i) body(i, j, k);
+}
+
+/// Calls body(n, cell) for the cells of a block in order: n counts them, `cell` is the place in the whole
+/// grid of the image that lies there.
+template <class Body>
+void for_each_cell_of_grid(const CellBox& box, const Lattice& lattice, Body&& body) {
+  const CellBox whole = all_cells(lattice.cells);
+  std::size_t n = 0;
+  for (int k = box.begin.k; k < box.end.k; ++k)
+    for (int j = box.begin.j; j < box.end.j; ++j) {
+      const std::size_t row = whole.offset(0, lattice.image(j, 0, 1), lattice.image(k, 0, 2));
+      int i = lattice.image(box.begin.i, 0, 0);
+      for (int m = box.begin.i; m < box.end.i; ++m, ++n) {
+        body(n, row + i);
+        if (++i == lattice.cells.i) i = 0;
+      }
+    }
 }
 
 }  // namespace spume::interface

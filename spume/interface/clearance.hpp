@@ -7,8 +7,8 @@
 
 namespace spume::interface {
 
-/// Says where a vertex is within four cells of the edge of the box (or not finite); empty when none is.
-/// Nearer films would feel the edge in their smoothed indicators.
+/// Says where a vertex is within four cells of a wall (or not finite); empty when none is. Nearer films would
+/// feel the wall in their smoothed indicators. Periodic faces do not matter.
 std::string clearance_problem(const grid::Grid& grid, const mesh::FilmMesh& films);
 
 }  // namespace spume::interface

@@ -39,26 +39,63 @@ std::vector<mesh::Phase> winners_of(const grid::Grid& grid, const Potential& pot
   return {whole.begin(), whole.end()};
 }
 
+/// The block of cells that each phase wins: along a periodic direction all but the longest free stretch.
+std::vector<CellBox> blocks_of_phases(const Lattice& lattice, const std::vector<mesh::Phase>& winner,
+                                      int n_phases) {
+  std::vector<CellBox> blocks(n_phases, no_cells());
+  for (int d = 0; d < 3; ++d) {
+    const int n_cells = lattice.cells[d];
+    std::vector<char> taken(static_cast<std::size_t>(n_phases) * n_cells, 0);
+    std::size_t n = 0;
+    for_each_cell(all_cells(lattice.cells), [&](int i, int j, int k) {
+      taken[static_cast<std::size_t>(winner[n++]) * n_cells + Index3{i, j, k}[d]] = 1;
+    });
+    for (mesh::Phase p = 0; p < n_phases; ++p) {
+      const char* of_phase = &taken[static_cast<std::size_t>(p) * n_cells];
+      int free = 0, longest = 0, begin = 0;
+      for (int m = 0; m < 2 * n_cells; ++m) {
+        free = of_phase[m % n_cells] ? 0 : free + 1;
+        if (free > longest && free <= n_cells) {
+          longest = free;
+          begin = (m + 1) % n_cells;
+        }
+      }
+      if (longest == n_cells) continue;  // nowhere
+      if (!lattice.periodic[d]) {
+        begin = static_cast<int>(std::find(of_phase, of_phase + n_cells, 1) - of_phase);
+        longest = n_cells - 1;
+        while (!of_phase[longest]) --longest;
+        blocks[p].begin[d] = begin;
+        blocks[p].end[d] = longest + 1;
+      } else {
+        blocks[p].begin[d] = begin;
+        blocks[p].end[d] = begin + n_cells - longest;
+      }
+    }
+  }
+  return blocks;
+}
+
 /// Samples of the functions around the cells that each phase wins, with noise of 1e-7 h, which breaks the
 /// exact ties of symmetric starts.
 PhasePotentials sample(const grid::Grid& grid, const Potential& potential, int n_phases) {
   constexpr int reach = 6;
   const double noise = 1e-7 * grid.h();
   const std::vector<mesh::Phase> winner = winners_of(grid, potential, n_phases);
-  std::vector<CellBox> cells(n_phases, no_cells());
-  std::size_t n = 0;
-  for_each_cell(all_cells(grid.cells()), [&](int i, int j, int k) { cells[winner[n++]].include(i, j, k); });
   PhasePotentials potentials(grid.box());
+  const Lattice& lattice = potentials.lattice();
+  const std::vector<CellBox> cells = blocks_of_phases(lattice, winner, n_phases);
   for (mesh::Phase p = 0; p < n_phases; ++p) {
     if (p > 0 && cells[p].empty()) continue;
     Random random(static_cast<std::uint64_t>(p));
     PhaseField field{p,
-                     p == 0 ? all_cells(grid.cells()) : grown(cells[p], reach, grid.cells()),
+                     p == 0 ? all_cells(grid.cells()) : lattice.grown(cells[p], reach),
                      -std::numeric_limits<double>::max(),
                      {}};
     field.value.reserve(field.cells.size());
     for_each_cell(field.cells, [&](int i, int j, int k) {
-      field.value.push_back(potential(p, grid.centre(i, j, k)) + noise * random.uniform(-0.5, 0.5));
+      const int x = lattice.image(i, 0, 0), y = lattice.image(j, 0, 1), z = lattice.image(k, 0, 2);
+      field.value.push_back(potential(p, grid.centre(x, y, z)) + noise * random.uniform(-0.5, 0.5));
     });
     potentials.set(std::move(field));
   }

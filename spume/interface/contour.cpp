@@ -58,17 +58,16 @@ bool is_odd(const std::array<int, 4>& order) {
 class FieldBins {
  public:
   explicit FieldBins(const PhasePotentials& potentials) {
-    const Index3 cells = potentials.box().cells;
-    for (int d = 0; d < 3; ++d) n_[d] = (cells[d] + edge - 1) / edge;
+    const Lattice& lattice = potentials.lattice();
+    for (int d = 0; d < 3; ++d) n_[d] = (lattice.cells[d] + edge - 1) / edge;
     fields_.resize(static_cast<std::size_t>(n_.i) * n_.j * n_.k);
     for (const auto& field : potentials.fields()) {
-      if (field.cells.empty()) continue;
-      const CellBox& c = field.cells;
-      const CellBox blocks{{c.begin.i / edge, c.begin.j / edge, c.begin.k / edge},
-                           {(c.end.i - 1) / edge + 1, (c.end.j - 1) / edge + 1, (c.end.k - 1) / edge + 1}};
-      for_each_cell(blocks, [&](int i, int j, int k) {
-        fields_[(static_cast<std::size_t>(k) * n_.j + j) * n_.i + i].push_back(&field);
-      });
+      std::array<std::vector<int>, 3> blocks;
+      for (int d = 0; d < 3; ++d) blocks[d] = blocks_along(field.cells, lattice, d);
+      for (int k : blocks[2])
+        for (int j : blocks[1])
+          for (int i : blocks[0])
+            fields_[(static_cast<std::size_t>(k) * n_.j + j) * n_.i + i].push_back(&field);
     }
   }
   const std::vector<const PhaseField*>& at(int i, int j, int k) const {
@@ -77,6 +76,16 @@ class FieldBins {
 
  private:
   static constexpr int edge = 8;
+
+  static std::vector<int> blocks_along(const CellBox& cells, const Lattice& lattice, int axis) {
+    std::vector<int> blocks;
+    for (int c = cells.begin[axis]; c < cells.end[axis]; ++c)
+      blocks.push_back(lattice.image(c, 0, axis) / edge);
+    std::sort(blocks.begin(), blocks.end());
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    return blocks;
+  }
+
   Index3 n_;
   std::vector<std::vector<const PhaseField*>> fields_;
 };
@@ -87,11 +96,14 @@ class Contourer {
       : potentials_(potentials),
         winner_(winner),
         bins_(potentials),
-        whole_(all_cells(potentials.box().cells)) {}
+        whole_(all_cells(potentials.box().cells)) {
+    films_.domain = potentials.box().domain();
+  }
 
   mesh::FilmMesh run() {
     CellBox cubes = whole_;
-    for (int d = 0; d < 3; ++d) --cubes.end[d];
+    for (int d = 0; d < 3; ++d)
+      if (!potentials_.lattice().periodic[d]) --cubes.end[d];
     for_each_cell(cubes, [&](int i, int j, int k) {
       read_winners(i, j, k);
       bool uniform = true;
@@ -106,7 +118,9 @@ class Contourer {
     for (int c = 0; c < 8; ++c) cube_winner_[c] = winner_[lattice_point(i, j, k, c)];
   }
   std::size_t lattice_point(int i, int j, int k, int corner) const {
-    return whole_.offset(i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2));
+    const Lattice& lattice = potentials_.lattice();
+    return whole_.offset(lattice.image(i + (corner & 1), 0, 0), lattice.image(j + (corner >> 1 & 1), 0, 1),
+                         lattice.image(k + (corner >> 2), 0, 2));
   }
 
   void contour_cube(int i, int j, int k) {
@@ -128,11 +142,11 @@ class Contourer {
   void find_candidates(int i, int j, int k) {
     n_cube_ = 0;
     for (const PhaseField* field : bins_.at(i, j, k)) {
-      if (!field->cells.contains(i, j, k) || !field->cells.contains(i + 1, j + 1, k + 1)) continue;
+      if (!field->place(i, j, k) || !field->place(i + 1, j + 1, k + 1)) continue;
       if (n_cube_ == max_candidates) throw NumericalError("more than 24 phases compete for one cell");
       auto& value = cube_value_[n_cube_];
       for (int c = 0; c < 8; ++c)
-        value[c] = field->value[field->cells.offset(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2))];
+        value[c] = field->value[*field->place(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2))];
       cube_phase_[n_cube_++] = field->phase;
     }
     std::array<bool, max_candidates> wins{}, beaten{};
@@ -270,7 +284,7 @@ class Contourer {
       int ear = 0;
       double shortest = -1;
       for (int m = 0; m < n; ++m) {
-        const double l = norm_squared(films_.position[v[(m + 1) % n]] - films_.position[v[(m + n - 1) % n]]);
+        const double l = norm_squared(films_.edge(v[(m + n - 1) % n], v[(m + 1) % n]));
         if (shortest >= 0 && l >= shortest) continue;
         shortest = l;
         ear = m;

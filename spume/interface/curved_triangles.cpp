@@ -37,14 +37,17 @@ Vec3 tangent(const Vec3& previous, const Vec3& here, const Vec3& next) {
 std::vector<Vec3> border_tangents(const mesh::FilmMesh& films, const mesh::PlateauBorder& border) {
   const auto& line = border.vertices;
   const int n = static_cast<int>(line.size());
-  const auto at = [&](int m) -> const Vec3& { return films.position[line[m]]; };
+  // Unrolled from the start of the border.
+  std::vector<Vec3> point{films.position[line[0]]};
+  for (int m = 1; m < n; ++m) point.push_back(films.domain.near(films.position[line[m]], point.back()));
   std::vector<Vec3> tangents(n);
-  for (int m = 1; m + 1 < n; ++m) tangents[m] = tangent(at(m - 1), at(m), at(m + 1));
+  for (int m = 1; m + 1 < n; ++m) tangents[m] = tangent(point[m - 1], point[m], point[m + 1]);
   if (border.closed && n > 3) {
-    tangents.front() = tangents.back() = tangent(at(n - 2), at(0), at(1));
+    tangents.front() = tangents.back() =
+        tangent(point[n - 2], point[n - 1], point[n - 1] + (point[1] - point[0]));
   } else {
-    tangents.front() = normalized(at(1) - at(0));
-    tangents.back() = normalized(at(n - 1) - at(n - 2));
+    tangents.front() = normalized(point[1] - point[0]);
+    tangents.back() = normalized(point[n - 1] - point[n - 2]);
   }
   return tangents;
 }
@@ -55,7 +58,7 @@ void set_midpoint(const mesh::FilmMesh& films, const mesh::BorderEdge& edge, con
     for (int e = 0; e < 3; ++e) {
       const int a = films.triangle[t].vertex[e], b = films.triangle[t].vertex[(e + 1) % 3];
       if ((a == edge.vertex[0] && b == edge.vertex[1]) || (a == edge.vertex[1] && b == edge.vertex[0]))
-        midpoints[t][e] = point;
+        midpoints[t][e] = films.domain.near(point, films.corners(t)[e]);
     }
 }
 
@@ -64,14 +67,14 @@ void set_midpoint(const mesh::FilmMesh& films, const mesh::BorderEdge& edge, con
 std::vector<EdgeMidpoints> edge_midpoints(const mesh::FilmMesh& films, const mesh::Topology& topology) {
   std::vector<EdgeMidpoints> midpoints(films.triangle.size());
   const std::vector<Vec3> normal = mesh::film_dof_normals(films, topology);
-  for (int t = 0; t < films.n_triangles(); ++t)
+  for (int t = 0; t < films.n_triangles(); ++t) {
+    const auto corner = films.corners(t);
+    const auto& dof = topology.corner_dof[t];
     for (int e = 0; e < 3; ++e) {
       const int f = (e + 1) % 3;
-      const auto& vertex = films.triangle[t].vertex;
-      const auto& dof = topology.corner_dof[t];
-      midpoints[t][e] = film_edge_midpoint(films.position[vertex[e]], films.position[vertex[f]],
-                                           normal[dof[e]], normal[dof[f]]);
+      midpoints[t][e] = film_edge_midpoint(corner[e], corner[f], normal[dof[e]], normal[dof[f]]);
     }
+  }
 
   std::vector<std::vector<Vec3>> tangents;
   for (const auto& border : topology.border) tangents.push_back(border_tangents(films, border));
@@ -89,7 +92,7 @@ std::vector<EdgeMidpoints> edge_midpoints(const mesh::FilmMesh& films, const mes
       const auto& edge = topology.border_edge[e];
       const std::pair<std::pair<int, int>, int> key{{edge.vertex[0], edge.vertex[1]}, 0};
       const auto found = std::lower_bound(place.begin(), place.end(), key);
-      const Vec3 &p = films.position[edge.vertex[0]], &q = films.position[edge.vertex[1]];
+      const Vec3 p = films.position[edge.vertex[0]], q = p + films.edge(edge.vertex[0], edge.vertex[1]);
       Vec3 displacement;
       if (found != place.end() && found->first == key.first) {
         const int m = found->second;

@@ -23,17 +23,14 @@ Winners separated(PhasePotentials& potentials, state::Phases& phases, double sma
 /// Adds noise of the given amplitude [m] to all potentials where the two largest are within four cells.
 void perturb_ties(PhasePotentials& potentials, const Winners& winners, double amplitude, std::uint64_t seed) {
   Random random(seed);
-  const CellBox whole = all_cells(potentials.box().cells);
   const double near = 4 * potentials.h();
   std::vector<mesh::Phase> phases;
   for (const auto& field : potentials.fields()) phases.push_back(field.phase);
   for (mesh::Phase p : phases) {
     PhaseField& field = *potentials.find(p);
-    std::size_t n = 0;
-    for_each_cell(field.cells, [&](int i, int j, int k) {
-      const std::size_t cell = whole.offset(i, j, k);
-      double& value = field.value[n++];
-      if (winners.first[cell] - winners.second[cell] < near) value += amplitude * random.uniform(-0.5, 0.5);
+    for_each_cell_of_grid(field.cells, potentials.lattice(), [&](std::size_t n, std::size_t cell) {
+      if (winners.first[cell] - winners.second[cell] < near)
+        field.value[n] += amplitude * random.uniform(-0.5, 0.5);
     });
   }
 }

@@ -6,6 +6,7 @@
 #include "spume/base/contract.hpp"
 #include "spume/grid/spectral_filter.hpp"
 #include "spume/interface/profile.hpp"
+#include "spume/mesh/phase_frames.hpp"
 
 namespace spume::interface {
 
@@ -29,8 +30,7 @@ using Triangle = std::array<Vec3, 3>;
 
 /// The four flat triangles that stand for a curved one.
 std::array<Triangle, 4> pieces(const mesh::FilmMesh& films, int t, const EdgeMidpoints& m) {
-  const auto& v = films.triangle[t].vertex;
-  const Vec3 &a = films.position[v[0]], &b = films.position[v[1]], &c = films.position[v[2]];
+  const auto [a, b, c] = films.corners(t);
   return {{{a, m[0], m[2]}, {b, m[1], m[0]}, {c, m[2], m[1]}, {m[0], m[1], m[2]}}};
 }
 
@@ -64,7 +64,8 @@ class DivergenceSpreader {
         k_begin_(grid.z_begin()),
         k_end_(grid.z_end()),
         stride_y_(grid.cells().i),
-        stride_z_(static_cast<std::ptrdiff_t>(grid.cells().i) * grid.cells().j) {
+        stride_z_(static_cast<std::ptrdiff_t>(grid.cells().i) * grid.cells().j),
+        lattice_(lattice_of(grid.box())) {
     for (auto& field : divergence) data_.push_back(field.values().data());
   }
 
@@ -73,28 +74,38 @@ class DivergenceSpreader {
     const Vec3 place = per_h_ * (x - lower_);
     const LineWeights wx = line_weights(place.x), wy = line_weights(place.y), wz = line_weights(place.z);
     const Vec3 f = per_h4_ * flux;  // flux density on faces (1/h³), and its difference over h
+    // The first of five cells; beyond it they may go on at the other end of the grid.
+    const int first = lattice_.image(wx.first, 0, 0);
+    const bool in_one_run = first + 5 <= lattice_.cells.i;
     for (int c = 0; c < 5; ++c) {
-      const int k = wz.first + c;
+      const int k = lattice_.image(wz.first + c, 0, 2);
       if (k < k_begin_ || k >= k_end_) continue;
       for (int b = 0; b < 5; ++b) {
         const double across = f.x * wy.value[b] * wz.value[c];
         const double along = f.y * wy.difference[b] * wz.value[c] + f.z * wy.value[b] * wz.difference[c];
-        const std::ptrdiff_t row = (k - k_begin_) * stride_z_ + (wy.first + b) * stride_y_ + wx.first;
+        const std::ptrdiff_t row =
+            (k - k_begin_) * stride_z_ + lattice_.image(wy.first + b, 0, 1) * stride_y_;
         std::array<double, 5> share;
         for (int a = 0; a < 5; ++a) share[a] = across * wx.difference[a] + along * wx.value[a];
-        if (add_to >= 0)
-          for (int a = 0; a < 5; ++a) data_[add_to][row + a] += share[a];
-        if (take_from >= 0)
-          for (int a = 0; a < 5; ++a) data_[take_from][row + a] -= share[a];
+        if (add_to >= 0) add(data_[add_to] + row, first, in_one_run, share, 1);
+        if (take_from >= 0) add(data_[take_from] + row, first, in_one_run, share, -1);
       }
     }
   }
 
  private:
+  void add(double* row, int first, bool in_one_run, const std::array<double, 5>& share, double sign) const {
+    if (in_one_run)
+      for (int a = 0; a < 5; ++a) row[first + a] += sign * share[a];
+    else
+      for (int a = 0; a < 5; ++a) row[lattice_.image(first + a, 0, 0)] += sign * share[a];
+  }
+
   Vec3 lower_;
   double per_h_, per_h4_;
   int k_begin_, k_end_;
   std::ptrdiff_t stride_y_, stride_z_;
+  Lattice lattice_;
   std::vector<double*> data_;
 };
 
@@ -103,21 +114,25 @@ std::vector<double> spread_films(const grid::Grid& grid, const mesh::FilmMesh& f
                                  const std::vector<EdgeMidpoints>& midpoints, const PhaseColours& colours,
                                  std::vector<grid::Field>& divergence) {
   const DivergenceSpreader spreader(grid, divergence);
-  std::vector<double> volume(colours.n_colours, 0.0);
-  const Vec3 origin = films.position.empty() ? Vec3{} : films.position.front();
+  const auto n_phases = static_cast<mesh::Phase>(colours.colour.size());
+  const mesh::PhaseFrames frames(films, n_phases);
+  std::vector<double> cones(n_phases, 0.0);
   for (int t = 0; t < films.n_triangles(); ++t) {
-    const int a = colours.colour[films.triangle[t].phase_a], b = colours.colour[films.triangle[t].phase_b];
+    const mesh::Phase phase_a = films.triangle[t].phase_a, phase_b = films.triangle[t].phase_b;
+    const int a = colours.colour[phase_a], b = colours.colour[phase_b];
     for (const Triangle& piece : pieces(films, t, midpoints[t])) {
       const Vec3 area = 0.5 * cross(piece[1] - piece[0], piece[2] - piece[0]);
-      const double cone = dot(piece[0] - origin, area) / 3;
-      if (a >= 0) volume[a] += cone;
-      if (b >= 0) volume[b] -= cone;
+      if (a >= 0) cones[phase_a] += frames.cone(phase_a, piece, area);
+      if (b >= 0) cones[phase_b] -= frames.cone(phase_b, piece, area);
       for (const auto& [weight, share] : quadrature) {
         const Vec3 x = weight[0] * piece[0] + weight[1] * piece[1] + weight[2] * piece[2];
         spreader.spread(x, -share * area, a, b);
       }
     }
   }
+  std::vector<double> volume(colours.n_colours, 0.0);
+  for (mesh::Phase p = 0; p < n_phases; ++p)
+    if (colours.colour[p] >= 0) volume[colours.colour[p]] += frames.volume(p, cones[p]);
   return volume;
 }
 
@@ -147,22 +162,26 @@ PhaseColours colour_phases(const grid::Grid& grid, const mesh::FilmMesh& films, 
   PhaseColours colours;
   colours.colour.assign(n_phases, -1);
   colours.cells.assign(n_phases, no_cells());
-  const double h = grid.h();
-  for (const auto& t : films.triangle)
-    for (int v : t.vertex) {
-      const Vec3 place = (films.position[v] - grid.box().lower) / h;
-      for (int p : {t.phase_a, t.phase_b})
-        colours.cells[p].include(static_cast<int>(std::floor(place.x)), static_cast<int>(std::floor(place.y)),
-                                 static_cast<int>(std::floor(place.z)));
+  const Lattice lattice = lattice_of(grid.box());
+  const mesh::PhaseFrames frames(films, n_phases);
+  for (int p = 1; p < n_phases; ++p) {
+    const Vec3 lower = (frames.lower(p) - grid.box().lower) / grid.h(),
+               upper = (frames.upper(p) - grid.box().lower) / grid.h();
+    if (!(lower.x <= upper.x)) continue;  // no films
+    for (int d = 0; d < 3; ++d) {
+      colours.cells[p].begin[d] = static_cast<int>(std::floor(lower[d]));
+      colours.cells[p].end[d] = static_cast<int>(std::floor(upper[d])) + 1;
     }
+  }
   std::vector<std::vector<int>> phases_of_colour;
   for (int p = 1; p < n_phases; ++p) {
     if (colours.cells[p].empty()) continue;
-    colours.cells[p] = grown(colours.cells[p], reach, grid.cells());
+    const bool bounded = frames.bounded(p, 0) && frames.bounded(p, 1) && frames.bounded(p, 2);
+    colours.cells[p] = bounded ? lattice.grown(colours.cells[p], reach) : all_cells(grid.cells());
     int c = 0;
     const auto is_free = [&](int colour) {
       for (int q : phases_of_colour[colour])
-        if (colours.cells[p].overlaps(colours.cells[q])) return false;
+        if (lattice.overlap(colours.cells[p], colours.cells[q])) return false;
       return true;
     };
     while (c < static_cast<int>(phases_of_colour.size()) && !is_free(c)) ++c;
@@ -170,7 +189,6 @@ PhaseColours colour_phases(const grid::Grid& grid, const mesh::FilmMesh& films, 
     phases_of_colour[c].push_back(p);
     colours.colour[p] = c;
   }
-  colours.cells[0] = no_cells();
   colours.n_colours = static_cast<int>(phases_of_colour.size());
   return colours;
 }

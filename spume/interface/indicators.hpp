@@ -13,8 +13,10 @@ namespace spume::interface {
 /// Which bubbles share a field. Two bubbles have one colour only when their boxes do not overlap.
 struct PhaseColours {
   int n_colours = 0;
-  std::vector<int> colour;     ///< of each phase; −1 for the outside and for phases without films
-  std::vector<CellBox> cells;  ///< of each phase: bounding box of its films, grown; empty where colour is −1
+  std::vector<int> colour;  ///< of each phase; −1 for the outside and for phases without films
+  /// Of each phase: bounding box of its films, grown; all cells for a layer or tunnel through a periodic box;
+  /// empty where colour is −1.
+  std::vector<CellBox> cells;
 };
 
 /// Greedy colouring in the order of ids. Boxes are bounding boxes of the phases' triangles grown by 6 cells,
@@ -31,7 +33,7 @@ PhaseColours colour_phases(const grid::Grid& grid, const mesh::FilmMesh& films, 
 /// division by the B-spline's transform and the kernel are one factor in Fourier (or cosine) space,
 ///   ĉ = (div g)^ T(s|θ|²/(2h²)) / (−Σ_d (2 − 2 cos θ_d)/h² Π_d sinc³(θ_d/2)),
 /// and the mean of c is the volume of the phases over that of the box.
-/// Collective. The films must be at least three cells away from the edge of the box.
+/// Collective. The films must be at least three cells away from walls.
 std::vector<std::vector<double>> smoothed_indicators(const grid::Grid& grid, const mesh::FilmMesh& films,
                                                      const std::vector<EdgeMidpoints>& midpoints,
                                                      const PhaseColours& colours, double variance);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "spume/base/union_find.hpp"
@@ -34,8 +35,8 @@ std::vector<CellRun> find_runs(const Index3& cells, const std::vector<mesh::Phas
 /// `reach`.
 class PieceDistance {
  public:
-  PieceDistance(const Index3& cells, const std::vector<mesh::Phase>& winner)
-      : whole_(all_cells(cells)), winner_(winner) {
+  PieceDistance(const Lattice& lattice, const std::vector<mesh::Phase>& winner)
+      : lattice_(lattice), whole_(all_cells(lattice.cells)), winner_(winner) {
     for (int k = -reach; k <= reach; ++k)
       for (int j = -reach; j <= reach; ++j)
         for (int i = -reach; i <= reach; ++i) {
@@ -47,17 +48,17 @@ class PieceDistance {
   template <class Accept>
   std::vector<double> operator()(const PhasePieces& pieces, const CellBox& window, Accept&& accept) const {
     std::vector<double> distance(window.size(), reach);
-    const CellBox sources = grown(window, reach, whole_.end);
+    const CellBox sources = lattice_.grown(window, reach);
     for (const CellRun& run : pieces.run) {
-      if (!accept(run.piece) || run.j < sources.begin.j || run.j >= sources.end.j ||
-          run.k < sources.begin.k || run.k >= sources.end.k)
-        continue;
-      for (int i = std::max(run.i_begin, sources.begin.i); i < std::min(run.i_end, sources.end.i); ++i) {
-        if (is_interior(i, run.j, run.k, run.phase)) {
-          if (window.contains(i, run.j, run.k)) distance[window.offset(i, run.j, run.k)] = 0;
-        } else {
-          stamp(i, run.j, run.k, window, distance);
-        }
+      if (!accept(run.piece)) continue;
+      for (int i = run.i_begin; i < run.i_end; ++i) {
+        const Index3 source = lattice_.image_in(sources, i, run.j, run.k);
+        if (!sources.contains(source.i, source.j, source.k)) continue;
+        if (is_interior(i, run.j, run.k, run.phase))
+          note(i, run.j, run.k, 0, window, distance);
+        else
+          for (const auto& [step, d] : ball_)
+            note(i + step.i, run.j + step.j, run.k + step.k, d, window, distance);
       }
     }
     return distance;
@@ -71,20 +72,21 @@ class PieceDistance {
 
   bool is_interior(int i, int j, int k, mesh::Phase phase) const {
     const auto same = [&](int a, int b, int c) {
-      return !whole_.contains(a, b, c) || winner_[whole_.offset(a, b, c)] == phase;
+      const Index3 cell = lattice_.image_in(whole_, a, b, c);
+      return !whole_.contains(cell.i, cell.j, cell.k) ||
+             winner_[whole_.offset(cell.i, cell.j, cell.k)] == phase;
     };
     return same(i - 1, j, k) && same(i + 1, j, k) && same(i, j - 1, k) && same(i, j + 1, k) &&
            same(i, j, k - 1) && same(i, j, k + 1);
   }
-  void stamp(int i, int j, int k, const CellBox& window, std::vector<double>& distance) const {
-    for (const auto& [step, d] : ball_) {
-      const int a = i + step.i, b = j + step.j, c = k + step.k;
-      if (!window.contains(a, b, c)) continue;
-      double& known = distance[window.offset(a, b, c)];
-      known = std::min(known, d);
-    }
+  void note(int i, int j, int k, double d, const CellBox& window, std::vector<double>& distance) const {
+    const Index3 cell = lattice_.image_in(window, i, j, k);
+    if (!window.contains(cell.i, cell.j, cell.k)) return;
+    double& known = distance[window.offset(cell.i, cell.j, cell.k)];
+    known = std::min(known, d);
   }
 
+  Lattice lattice_;
   CellBox whole_;
   const std::vector<mesh::Phase>& winner_;
   std::vector<Offset> ball_;
@@ -92,8 +94,6 @@ class PieceDistance {
 
 /// The piece that keeps the phase.
 int main_piece(const PhasePieces& pieces, const std::vector<int>& of_phase) {
-  // The first cell is at the edge of the box, which belongs to the outside.
-  if (of_phase.front() == 0 && pieces.piece[0].phase == 0) return 0;
   return *std::max_element(of_phase.begin(), of_phase.end(), [&](int a, int b) {
     return pieces.piece[a].n_cells < pieces.piece[b].n_cells;  // the first of equals
   });
@@ -110,18 +110,28 @@ PhaseField cut_out(PhaseField& parent, const CellBox& window, const std::vector<
     ++n;
     const double value = parent.at(i, j, k);
     field.value.push_back(value + slope * std::min(0.0, nearer));
-    if (parent.cells.contains(i, j, k))
-      parent.value[parent.cells.offset(i, j, k)] = value - slope * std::max(0.0, nearer);
+    if (const auto place = parent.place(i, j, k))
+      parent.value[*place] = value - slope * std::max(0.0, nearer);
   });
   return field;
 }
 
-/// A closed surface of one phase: triangles linked by vertices that they share.
+/// A closed surface of one phase: triangles linked by vertices that they share, all by the images nearest to
+/// one of them. What goes around half a periodic box or more is not measured: its volume is infinite.
 struct ClosedSurface {
   mesh::Phase phase;
   double volume = 0;  ///< enclosed; negative around a cavity [m³]
   Vec3 lower, upper;  ///< bounding box
+  Vec3 start;
 };
+
+void mark_large(const Domain& domain, std::vector<ClosedSurface>& surfaces) {
+  constexpr double large = 0.4;
+  for (ClosedSurface& s : surfaces)
+    for (int d = 0; d < 3; ++d)
+      if (domain.periodic[d] && s.upper[d] - s.lower[d] > large * domain.size[d])
+        s.volume = std::numeric_limits<double>::infinity();
+}
 
 std::vector<ClosedSurface> closed_surfaces(const mesh::FilmMesh& films, const mesh::Topology& topology) {
   // Side s: triangle s/2 as seen from its phase_a (even) or its phase_b (odd).
@@ -144,27 +154,29 @@ std::vector<ClosedSurface> closed_surfaces(const mesh::FilmMesh& films, const me
       }
   }
   std::vector<int> surface_of_side;
-  std::vector<ClosedSurface> surfaces(classes.number(surface_of_side), {-1, 0, {}, {}});
+  std::vector<ClosedSurface> surfaces(classes.number(surface_of_side), {-1, 0, {}, {}, {}});
   for (int side = 0; side < 2 * films.n_triangles(); ++side) {
-    const auto& t = films.triangle[side / 2];
     ClosedSurface& s = surfaces[surface_of_side[side]];
-    const Vec3 &a = films.position[t.vertex[0]], &b = films.position[t.vertex[1]],
-               &c = films.position[t.vertex[2]];
-    if (s.phase < 0) s = {phase_of(side), 0, a, a};
-    const Vec3 o = films.position.front();  // near, so that round-off stays small
-    s.volume += (side % 2 ? -1 : 1) * dot(a - o, cross(b - o, c - o)) / 6;
-    for (int v : t.vertex)
+    const auto corner = films.corners(side / 2);
+    if (s.phase < 0) s = {phase_of(side), 0, corner[0], corner[0], corner[0]};
+    const Vec3 shift = films.domain.near(corner[0], s.start) - corner[0];
+    const Vec3 a = corner[0] + shift - s.start, b = corner[1] + shift - s.start,
+               c = corner[2] + shift - s.start;
+    s.volume += (side % 2 ? -1 : 1) * dot(a, cross(b, c)) / 6;
+    for (const Vec3& x : corner)
       for (int d = 0; d < 3; ++d) {
-        s.lower[d] = std::min(s.lower[d], films.position[v][d]);
-        s.upper[d] = std::max(s.upper[d], films.position[v][d]);
+        s.lower[d] = std::min(s.lower[d], x[d] + shift[d]);
+        s.upper[d] = std::max(s.upper[d], x[d] + shift[d]);
       }
   }
+  mark_large(films.domain, surfaces);
   return surfaces;
 }
 
 }  // namespace
 
-PhasePieces find_pieces(const Index3& cells, const std::vector<mesh::Phase>& winner) {
+PhasePieces find_pieces(const Lattice& lattice, const std::vector<mesh::Phase>& winner) {
+  const Index3& cells = lattice.cells;
   std::vector<int> first_of_row;
   PhasePieces result{find_runs(cells, winner, first_of_row), {}};
   auto& runs = result.run;
@@ -173,12 +185,18 @@ PhasePieces find_pieces(const Index3& cells, const std::vector<mesh::Phase>& win
   constexpr std::array<std::array<int, 2>, 3> steps{{{1, 0}, {0, 1}, {1, 1}}};
   for (int n = 0; n < static_cast<int>(runs.size()); ++n) {
     const CellRun& run = runs[n];
+    const bool goes_over = lattice.periodic[0] && run.i_end == cells.i;
+    if (const CellRun& first = runs[first_of_row[run.k * cells.j + run.j]];
+        goes_over && first.phase == run.phase)
+      classes.join(n, first_of_row[run.k * cells.j + run.j]);
     for (const auto& [dj, dk] : steps) {
-      if (run.j + dj >= cells.j || run.k + dk >= cells.k) continue;
-      const int row = (run.k + dk) * cells.j + run.j + dj;
-      for (int m = first_of_row[row]; m < first_of_row[row + 1]; ++m)
-        if (runs[m].phase == run.phase && runs[m].i_begin <= run.i_end && runs[m].i_end > run.i_begin)
-          classes.join(n, m);
+      const int j = lattice.image(run.j + dj, 0, 1), k = lattice.image(run.k + dk, 0, 2);
+      if (j >= cells.j || k >= cells.k) continue;
+      const int row = k * cells.j + j;
+      for (int m = first_of_row[row]; m < first_of_row[row + 1]; ++m) {
+        const bool meet = runs[m].i_begin <= run.i_end && runs[m].i_end > run.i_begin;
+        if (runs[m].phase == run.phase && (meet || (goes_over && runs[m].i_begin == 0))) classes.join(n, m);
+      }
     }
   }
   std::vector<int> piece_of_run;
@@ -197,14 +215,14 @@ PhasePieces find_pieces(const Index3& cells, const std::vector<mesh::Phase>& win
 
 bool separate_pieces(PhasePotentials& potentials, const Winners& winners, state::Phases& phases,
                      double smallest_volume, std::vector<PhaseChange>& changes) {
-  const Index3 cells = potentials.box().cells;
+  const Lattice& lattice = potentials.lattice();
   const double h = potentials.h(), cell_volume = h * h * h;
-  const PhasePieces pieces = find_pieces(cells, winners.phase);
+  const PhasePieces pieces = find_pieces(lattice, winners.phase);
   std::map<mesh::Phase, std::vector<int>> of_phase;
   for (std::size_t n = 0; n < pieces.piece.size(); ++n)
     of_phase[pieces.piece[n].phase].push_back(static_cast<int>(n));
 
-  const PieceDistance distance(cells, winners.phase);
+  const PieceDistance distance(lattice, winners.phase);
   bool changed = false;
   for (const auto& [phase, members] : of_phase) {
     if (members.size() < 2) continue;
@@ -213,7 +231,7 @@ bool separate_pieces(PhasePotentials& potentials, const Winners& winners, state:
       if (member == main) continue;
       changed = true;
       const PhasePiece& piece = pieces.piece[member];
-      const CellBox window = grown(piece.cells, reach, cells);
+      const CellBox window = lattice.grown(piece.cells, reach);
       const auto to_piece = distance(pieces, window, [&](int n) { return n == member; });
       const auto to_others =
           distance(pieces, window, [&](int n) { return n != member && pieces.piece[n].phase == phase; });
@@ -266,7 +284,6 @@ void settle_new_phases(const mesh::FilmMesh& films, state::Phases& phases, std::
 
 int suppress_specks(PhasePotentials& potentials, const Winners& winners, const mesh::FilmMesh& films,
                     const mesh::Topology& topology, double smallest_volume) {
-  const Index3 cells = potentials.box().cells;
   const double h = potentials.h();
   const std::vector<ClosedSurface> surfaces = closed_surfaces(films, topology);
   std::map<mesh::Phase, double> largest;
@@ -284,10 +301,11 @@ int suppress_specks(PhasePotentials& potentials, const Winners& winners, const m
                      static_cast<int>(std::floor(place.z)));
     }
     PhaseField& field = *potentials.find(s.phase);
-    const CellBox whole = all_cells(cells);
-    for_each_cell(grown(around, 1, cells), [&](int i, int j, int k) {
-      if (winners.phase[whole.offset(i, j, k)] != s.phase && field.cells.contains(i, j, k))
-        field.value[field.cells.offset(i, j, k)] -= h;
+    const CellBox whole = all_cells(potentials.lattice().cells);
+    for_each_cell(potentials.lattice().grown(around, 1), [&](int i, int j, int k) {
+      const Index3 cell = potentials.lattice().image_in(whole, i, j, k);
+      const auto place = field.place(i, j, k);
+      if (winners.phase[whole.offset(cell.i, cell.j, cell.k)] != s.phase && place) field.value[*place] -= h;
     });
   }
   return n_specks;

@@ -17,7 +17,7 @@ using PhaseChange = ReconstructReport::PhaseChange;
 /// both ends of an edge wins all along it.
 struct PhasePiece {
   mesh::Phase phase;
-  CellBox cells;  ///< bounding box
+  CellBox cells;  ///< bounding box of its cells as they are numbered in the grid
   std::size_t n_cells;
 };
 
@@ -33,17 +33,15 @@ struct PhasePieces {
   std::vector<PhasePiece> piece;  ///< in the order of their first cell
 };
 
-/// The pieces of all phases; `winner` as of find_winners(). Periodic faces need no care as long as one phase
-/// covers the edge of the box.
-PhasePieces find_pieces(const Index3& cells, const std::vector<mesh::Phase>& winner);
+/// The pieces of all phases; `winner` as of find_winners(). Pieces continue across periodic faces.
+PhasePieces find_pieces(const Lattice& lattice, const std::vector<mesh::Phase>& winner);
 
-/// Makes every phase one piece. The largest piece keeps the phase (of the outside, the piece at the edge of
-/// the box). Another one becomes a new phase when its cells fill at least `smallest_volume` [m³]: a Split of
-/// a bubble or a Pocket of the outside, appended to `phases` with target volume 0 until settle_new_phases().
-/// Smaller ones are Absorbed: their phase is lowered there so that neighbours win. With d the distances to
-/// the pieces, the new phase has ψ_p − max(0, d_new − d_old) and the old one ψ_p − max(0, d_old − d_new),
-/// both unchanged near their own films. Appends to `changes`; gives whether there was anything to do, in
-/// which case the winners have changed.
+/// Makes every phase one piece. The largest piece keeps the phase. Another one becomes a new phase when its
+/// cells fill at least `smallest_volume` [m³]: a Split of a bubble or a Pocket of the outside, appended to
+/// `phases` with target volume 0 until settle_new_phases(). Smaller ones are Absorbed: their phase is lowered
+/// there so that neighbours win. With d the distances to the pieces, the new phase has ψ_p − max(0, d_new −
+/// d_old) and the old one ψ_p − max(0, d_old − d_new), both unchanged near their own films. Appends to
+/// `changes`; gives whether there was anything to do, in which case the winners have changed.
 bool separate_pieces(PhasePotentials& potentials, const Winners& winners, state::Phases& phases,
                      double smallest_volume, std::vector<PhaseChange>& changes);
 

@@ -25,15 +25,17 @@ CubicWeights cubic_weights(double t) {
            (3 * t * t - 1) / 6}};
 }
 
-/// A row of four values of a field; outside its cells they are read one by one.
-std::array<double, 4> row(const PhaseField& f, int i, int j, int k) {
+/// A row of four values of a field, from a cell whose image in the field's block is `start`; outside the
+/// block, and where the row goes over the edge of the grid, they are read one by one.
+std::array<double, 4> row(const PhaseField& f, const Index3& start, int j, int k) {
   std::array<double, 4> values;
   const CellBox& c = f.cells;
-  if (i >= c.begin.i && i + 4 <= c.end.i && c.contains(i, j, k)) {
-    const double* from = &f.value[c.offset(i, j, k)];
+  const int y = start.j + j, z = start.k + k;
+  if (start.i + 4 <= c.end.i && c.contains(start.i, y, z)) {
+    const double* from = &f.value[c.offset(start.i, y, z)];
     std::copy(from, from + 4, values.begin());
   } else {
-    for (int n = 0; n < 4; ++n) values[n] = f.at(i + n, j, k);
+    for (int n = 0; n < 4; ++n) values[n] = f.at(start.i + n, y, z);
   }
   return values;
 }
@@ -46,6 +48,7 @@ bool is_near(const Vec3& x, const Vec3& start, double reach) {
 
 void PhasePotentials::set(PhaseField field) {
   expects(field.phase >= 0 && field.value.size() == field.cells.size(), "a field fills its cells");
+  field.lattice = lattice_;
   const auto place = std::lower_bound(fields_.begin(), fields_.end(), field.phase,
                                       [](const PhaseField& f, mesh::Phase p) { return f.phase < p; });
   if (place != fields_.end() && place->phase == field.phase)
@@ -80,13 +83,14 @@ double PhasePotentials::difference(const PhaseField& a, const PhaseField& b, con
             k = static_cast<int>(std::floor(place.z));
   const CubicWeights wx = cubic_weights(place.x - i), wy = cubic_weights(place.y - j),
                      wz = cubic_weights(place.z - k);
+  const Index3 start_a = lattice_.image_in(a.cells, i - 1, j - 1, k - 1),
+               start_b = lattice_.image_in(b.cells, i - 1, j - 1, k - 1);
   double value = 0;
   Vec3 slope;
   for (int c = 0; c < 4; ++c) {
     double plane = 0, plane_x = 0, plane_y = 0;
     for (int m = 0; m < 4; ++m) {
-      const std::array<double, 4> va = row(a, i - 1, j - 1 + m, k - 1 + c),
-                                  vb = row(b, i - 1, j - 1 + m, k - 1 + c);
+      const std::array<double, 4> va = row(a, start_a, m, c), vb = row(b, start_b, m, c);
       double line = 0, line_x = 0;
       for (int n = 0; n < 4; ++n) {
         const double v = va[n] - vb[n];
@@ -188,8 +192,8 @@ PhasePotentials potentials_of(const grid::Box& box, const PhaseColours& colours,
     PhaseField field{static_cast<mesh::Phase>(p), colours.cells[p], map.distance(0), {}};
     field.value.reserve(field.cells.size());
     const auto& c = indicator[colours.colour[p]];
-    for_each_cell(field.cells, [&](int i, int j, int k) {
-      field.value.push_back(map.distance(c[whole.offset(i, j, k)]));
+    for_each_cell_of_grid(field.cells, potentials.lattice(), [&](std::size_t, std::size_t cell) {
+      field.value.push_back(map.distance(c[cell]));
     });
     potentials.set(std::move(field));
   }
@@ -204,10 +208,8 @@ Winners find_winners(const PhasePotentials& potentials) {
             std::vector<double>(whole.size(), none)};
   for (const auto& field : potentials.fields()) {
     lowest = std::min(lowest, field.beyond);
-    std::size_t n = 0;
-    for_each_cell(field.cells, [&](int i, int j, int k) {
-      const double value = field.value[n++];
-      const std::size_t cell = whole.offset(i, j, k);
+    for_each_cell_of_grid(field.cells, potentials.lattice(), [&](std::size_t n, std::size_t cell) {
+      const double value = field.value[n];
       if (value > w.first[cell]) {
         w.second[cell] = w.first[cell];
         w.first[cell] = value;

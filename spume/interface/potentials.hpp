@@ -19,9 +19,17 @@ struct PhaseField {
   CellBox cells;
   double beyond;
   std::vector<double> value;
+  Lattice lattice{};  ///< PhasePotentials::set() fills it in
 
+  /// Where the value of a cell, or of its image in the block, is stored.
+  std::optional<std::size_t> place(int i, int j, int k) const {
+    const Index3 c = lattice.image_in(cells, i, j, k);
+    if (!cells.contains(c.i, c.j, c.k)) return std::nullopt;
+    return cells.offset(c.i, c.j, c.k);
+  }
   double at(int i, int j, int k) const {
-    return cells.contains(i, j, k) ? value[cells.offset(i, j, k)] : beyond;
+    const auto n = place(i, j, k);
+    return n ? value[*n] : beyond;
   }
 };
 
@@ -30,9 +38,10 @@ struct PhaseField {
 /// signed distance.
 class PhasePotentials {
  public:
-  explicit PhasePotentials(const grid::Box& box) : box_(box) {}
+  explicit PhasePotentials(const grid::Box& box) : box_(box), lattice_(lattice_of(box)) {}
 
   const grid::Box& box() const { return box_; }
+  const Lattice& lattice() const { return lattice_; }
   double h() const { return box_.spacing(); }
 
   /// Adds the field of a phase, or replaces it.
@@ -58,6 +67,7 @@ class PhasePotentials {
   std::optional<Vec3> project_on_junction(const Vec3& start, const PhaseField* const* field) const;
 
   grid::Box box_;
+  Lattice lattice_;
   std::vector<PhaseField> fields_;
   std::vector<int> place_of_phase_;  ///< in fields_; −1: none
 };

@@ -16,12 +16,19 @@ namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// M/τ + L: lumped areas over τ, and the cotangent matrix of all films. The cotangents of a sliver would
-/// otherwise rule the whole step; they are scaled down together until none exceeds 20.
-SparseMatrix implicit_matrix(const mesh::FilmMesh& films, double tau, Eigen::VectorXd& mass_over_tau) {
+/// The linear system of a step for displacements.
+struct ImplicitStep {
+  SparseMatrix matrix;              ///< M/τ + L
+  std::vector<Vec3> straightening;  ///< −L x [m]
+};
+
+/// Lumped areas over τ, and the cotangent matrix of all films. The cotangents of a sliver would otherwise
+/// rule the whole step; they are scaled down together until none exceeds 20.
+ImplicitStep implicit_step(const mesh::FilmMesh& films, double tau) {
   constexpr double largest_cotangent = 20;
   const int n = films.n_vertices();
-  mass_over_tau = Eigen::VectorXd::Zero(n);
+  ImplicitStep step{SparseMatrix(n, n), std::vector<Vec3>(n)};
+  Eigen::VectorXd mass_over_tau = Eigen::VectorXd::Zero(n);
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(12 * films.triangle.size() + n);
   for (int t = 0; t < films.n_triangles(); ++t) {
@@ -32,8 +39,8 @@ SparseMatrix implicit_matrix(const mesh::FilmMesh& films, double tau, Eigen::Vec
     std::array<double, 3> cotangent;  // of the corner opposite to the side c
     double largest = 0;
     for (int c = 0; c < 3; ++c) {
-      const Vec3& apex = films.position[v[(c + 2) % 3]];
-      cotangent[c] = dot(films.position[v[c]] - apex, films.position[v[(c + 1) % 3]] - apex) / doubled_area;
+      const int apex = v[(c + 2) % 3];
+      cotangent[c] = dot(films.edge(apex, v[c]), films.edge(apex, v[(c + 1) % 3])) / doubled_area;
       largest = std::max(largest, std::abs(cotangent[c]));
     }
     // All three by one factor: clipped one by one they would no longer be a positive matrix.
@@ -45,33 +52,29 @@ SparseMatrix implicit_matrix(const mesh::FilmMesh& films, double tau, Eigen::Vec
       entries.emplace_back(j, j, weight);
       entries.emplace_back(i, j, -weight);
       entries.emplace_back(j, i, -weight);
+      const Vec3 pull = weight * films.edge(i, j);
+      step.straightening[i] += pull;
+      step.straightening[j] -= pull;
     }
   }
   for (int v = 0; v < n; ++v) entries.emplace_back(v, v, mass_over_tau(v));
-  SparseMatrix matrix(n, n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
+  step.matrix.setFromTriplets(entries.begin(), entries.end());
+  return step;
 }
 
-void solve_for_positions(const SparseMatrix& matrix, const Eigen::VectorXd& mass_over_tau,
-                         const std::vector<Vec3>& push, mesh::FilmMesh& films) {
-  Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper> solver(matrix);
-  solver.setTolerance(1e-9);
+void move_vertices(const ImplicitStep& step, const std::vector<Vec3>& push, mesh::FilmMesh& films) {
+  Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper> solver(step.matrix);
+  solver.setTolerance(1e-6);  // of displacements, which are small themselves
   solver.setMaxIterations(2000);
   const int n = films.n_vertices();
-  // Differences keep the digits that positions in a large box would lose.
-  const Vec3 origin = films.position.front();
   for (int axis = 0; axis < 3; ++axis) {
-    Eigen::VectorXd old_position(n), right(n);
-    for (int v = 0; v < n; ++v) {
-      old_position(v) = films.position[v][axis] - origin[axis];
-      right(v) = mass_over_tau(v) * old_position(v) + push[v][axis];
-    }
-    const Eigen::VectorXd new_position = solver.solveWithGuess(right, old_position);
-    if (solver.info() != Eigen::Success || !new_position.allFinite())
+    Eigen::VectorXd right(n);
+    for (int v = 0; v < n; ++v) right(v) = step.straightening[v][axis] + push[v][axis];
+    const Eigen::VectorXd displacement = solver.solve(right);
+    if (solver.info() != Eigen::Success || !displacement.allFinite())
       throw NumericalError(
           "relaxation of the films failed: the linear system of a step has no usable solution");
-    for (int v = 0; v < n; ++v) films.position[v][axis] = new_position(v) + origin[axis];
+    for (int v = 0; v < n; ++v) films.position[v][axis] += displacement(v);
   }
 }
 
@@ -88,9 +91,7 @@ RelaxStepReport relax_step(mesh::FilmMesh& films, const state::Phases& phases, d
   report.virial_error = std::abs(2.0 / 3.0 * report.area_before / work - 1);
 
   const std::vector<Vec3> before = films.position;
-  Eigen::VectorXd mass_over_tau;
-  const SparseMatrix matrix = implicit_matrix(films, tau, mass_over_tau);
-  solve_for_positions(matrix, mass_over_tau, mesh::weighted_volume_gradient(films, pressure), films);
+  move_vertices(implicit_step(films, tau), mesh::weighted_volume_gradient(films, pressure), films);
   mesh::restore_volumes(films, phases.target_volume, 2, std::sqrt(tau));
 
   for (int v = 0; v < films.n_vertices(); ++v)

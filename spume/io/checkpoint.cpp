@@ -64,7 +64,8 @@ void write_number(const Hdf5File& file, const std::string& name, double value) {
 }
 
 void write_films_and_liquid(const Hdf5File& file, const state::Foam& foam) {
-  const auto& [position, triangle] = foam.films;
+  const auto& position = foam.films.position;
+  const auto& triangle = foam.films.triangle;
   file.write("films/position", flat(position), {position.size(), 3});
   file.write("films/triangle", flat(triangle), {triangle.size(), 5});
   write_list(file, "phases/target_volume", foam.phases.target_volume);

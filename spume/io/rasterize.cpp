@@ -11,6 +11,9 @@ namespace spume::io {
 
 namespace {
 
+/// Triangles reach this far beyond the box from a corner in it.
+constexpr double margin_cells = 4;
+
 /// Where a row of cell centres goes through a film.
 struct Crossing {
   double x;                    ///< [m]
@@ -49,37 +52,66 @@ Range cells_between(double low, double high, double lower, double h, int n, int 
           std::min(n, static_cast<int>(std::floor(nearest(high))) + 1 + more)};
 }
 
-Range cells_around(const mesh::FilmMesh& films, const mesh::FilmTriangle& t, const grid::Box& box, int axis,
-                   int more) {
-  const auto at = [&](int corner) { return films.position[t.vertex[corner]][axis]; };
+Range cells_around(const std::array<Vec3, 3>& corner, const grid::Box& box, int axis, int more) {
+  const auto at = [&](int c) { return corner[c][axis]; };
   return cells_between(std::min({at(0), at(1), at(2)}), std::max({at(0), at(1), at(2)}), box.lower[axis],
                        box.spacing(), box.cells[axis], more);
+}
+
+/// Calls body(corner) for the images of a triangle in the box and near it. An image of a vertex has the same
+/// coordinates, to the last bit, in every triangle.
+template <class Body>
+void for_each_image(const mesh::FilmMesh& films, const mesh::FilmTriangle& t, double margin, Body&& body) {
+  const auto& x = films.position;
+  films.domain.for_each_image(x[t.vertex[0]], margin, [&](const Vec3& first) {
+    const Vec3 a = films.domain.near(x[t.vertex[0]], first), b = films.domain.near(x[t.vertex[1]], a),
+               c = films.domain.near(x[t.vertex[2]], a);
+    body(std::array<Vec3, 3>{a, b, c});
+  });
 }
 
 std::vector<std::vector<Crossing>> find_crossings(const mesh::FilmMesh& films, const grid::Box& box) {
   std::vector<std::vector<Crossing>> crossings(static_cast<std::size_t>(box.cells.j) * box.cells.k);
   const double h = box.spacing();
   for (const auto& t : films.triangle) {
-    const auto& v = t.vertex;
-    const std::array<Vec3, 3> corner{films.position[v[0]], films.position[v[1]], films.position[v[2]]};
-    const Range js = cells_around(films, t, box, 1, 1), ks = cells_around(films, t, box, 2, 1);
-    for (int k = ks.begin; k < ks.end; ++k)
-      for (int j = js.begin; j < js.end; ++j) {
-        const double y = box.lower.y + (j + 0.5) * h, z = box.lower.z + (k + 0.5) * h;
-        int winding = 0;
-        for (int e = 0; e < 3; ++e)
-          winding += passes(corner[e], corner[(e + 1) % 3], v[e], v[(e + 1) % 3], y, z);
-        if (winding == 0) continue;
-        // Counter-clockwise in (y, z) means that the normal, from phase_a into phase_b, points up x.
-        const double x = meeting(corner[0], corner[1], corner[2], y, z);
-        auto& row = crossings[static_cast<std::size_t>(k) * box.cells.j + j];
-        if (winding > 0)
-          row.push_back({x, t.phase_a, t.phase_b});
-        else
-          row.push_back({x, t.phase_b, t.phase_a});
-      }
+    for_each_image(films, t, margin_cells * h, [&](const std::array<Vec3, 3>& corner) {
+      const Range js = cells_around(corner, box, 1, 1), ks = cells_around(corner, box, 2, 1);
+      for (int k = ks.begin; k < ks.end; ++k)
+        for (int j = js.begin; j < js.end; ++j) {
+          const double y = box.lower.y + (j + 0.5) * h, z = box.lower.z + (k + 0.5) * h;
+          int winding = 0;
+          for (int e = 0; e < 3; ++e)
+            winding += passes(corner[e], corner[(e + 1) % 3], t.vertex[e], t.vertex[(e + 1) % 3], y, z);
+          if (winding == 0) continue;
+          // Counter-clockwise in (y, z) means that the normal, from phase_a into phase_b, points up x.
+          const double x = meeting(corner[0], corner[1], corner[2], y, z);
+          auto& row = crossings[static_cast<std::size_t>(k) * box.cells.j + j];
+          if (winding > 0)
+            row.push_back({x, t.phase_a, t.phase_b});
+          else
+            row.push_back({x, t.phase_b, t.phase_a});
+        }
+    });
   }
   return crossings;
+}
+
+/// The phase of a row of cells that no film crosses: in a periodic box it may be any. Seen from the nearest
+/// films of three of its points.
+mesh::Phase phase_of_free_row(const mesh::FilmMesh& films, const mesh::TriangleLocator& locator,
+                              const grid::Box& box, int j, int k) {
+  if (!films.domain.is_periodic() || films.triangle.empty()) return 0;
+  std::array<mesh::Phase, 3> seen;
+  for (int m = 0; m < 3; ++m) {
+    const Vec3 x = box.lower + box.spacing() * Vec3{box.cells.i * (m + 0.5) / 3, j + 0.5, k + 0.5};
+    const auto near = locator.closest(x, norm(box.size()), {});
+    const auto [a, b, c] = films.corners(near.triangle);
+    const Vec3 foot = near.weight[0] * a + near.weight[1] * b + near.weight[2] * c;
+    const auto& t = films.triangle[near.triangle];
+    const bool behind = dot(films.domain.step(foot, x), mesh::doubled_area_normal(films, near.triangle)) > 0;
+    seen[m] = behind ? t.phase_b : t.phase_a;
+  }
+  return seen[1] == seen[2] ? seen[1] : seen[0];
 }
 
 }  // namespace
@@ -89,11 +121,16 @@ std::vector<mesh::Phase> rasterize_phases(const mesh::FilmMesh& films, int n_pha
   std::vector<mesh::Phase> phase_of_cell;
   phase_of_cell.reserve(static_cast<std::size_t>(box.cells.i) * box.cells.j * box.cells.k);
   std::vector<int> inside(n_phases);  // how often the row has entered each phase, less how often it left it
+  const mesh::TriangleLocator locator(films, 4 * h);
+  int n_rows = 0;
   for (auto& row : find_crossings(films, box)) {
     std::stable_sort(row.begin(), row.end(), [](const Crossing& a, const Crossing& b) { return a.x < b.x; });
     std::fill(inside.begin(), inside.end(), 0);
-    inside[0] = 1;
-    mesh::Phase here = 0;
+    mesh::Phase here =
+        row.empty() ? phase_of_free_row(films, locator, box, n_rows % box.cells.j, n_rows / box.cells.j)
+                    : row.front().before;
+    ++n_rows;
+    inside[here] = 1;
     auto next = row.begin();
     for (int i = 0; i < box.cells.i; ++i) {
       const auto passed = next;
@@ -126,10 +163,10 @@ class NearestTriangles {
     const std::size_t c = cell(i, j, k);
     if (triangle < 0 || triangle == nearest_[c]) return;
     const Vec3 x = box_.lower + h_ * Vec3{i + 0.5, j + 0.5, k + 0.5};
-    const auto& v = films_.triangle[triangle].vertex;
+    const auto [p, q, r] = films_.corners(triangle);
+    const Vec3 shift = films_.domain.near(p, x) - p;
     std::array<double, 3> weight;
-    const double d = std::sqrt(mesh::closest_point_on_triangle(
-        x, films_.position[v[0]], films_.position[v[1]], films_.position[v[2]], weight));
+    const double d = std::sqrt(mesh::closest_point_on_triangle(x, p + shift, q + shift, r + shift, weight));
     if (nearest_[c] >= 0 && d >= distance_[c]) return;
     nearest_[c] = triangle;
     distance_[c] = d;
@@ -169,12 +206,13 @@ std::vector<double> rasterize_distance(const mesh::FilmMesh& films, const grid::
                                        double largest_value) {
   NearestTriangles nearest(films, box, largest_value);
   for (int t = 0; t < films.n_triangles(); ++t) {
-    const auto& triangle = films.triangle[t];
-    const Range is = cells_around(films, triangle, box, 0, 1), js = cells_around(films, triangle, box, 1, 1),
-                ks = cells_around(films, triangle, box, 2, 1);
-    for (int k = ks.begin; k < ks.end; ++k)
-      for (int j = js.begin; j < js.end; ++j)
-        for (int i = is.begin; i < is.end; ++i) nearest.try_triangle(i, j, k, t);
+    for_each_image(films, films.triangle[t], margin_cells * box.spacing(), [&](const auto& corner) {
+      const Range is = cells_around(corner, box, 0, 1), js = cells_around(corner, box, 1, 1),
+                  ks = cells_around(corner, box, 2, 1);
+      for (int k = ks.begin; k < ks.end; ++k)
+        for (int j = js.begin; j < js.end; ++j)
+          for (int i = is.begin; i < is.end; ++i) nearest.try_triangle(i, j, k, t);
+    });
   }
   for (int order = 0; order < 8; ++order) nearest.sweep((order & 1) == 0, (order & 2) == 0, (order & 4) == 0);
   return nearest.take_distance();

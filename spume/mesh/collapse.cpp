@@ -113,7 +113,7 @@ std::vector<ShortEdge> Collapser::begin_pass() {
     for (int c = 0; c < 3; ++c) {
       const auto [low, high] =
           std::minmax(mesh_.triangle[t].vertex[c], mesh_.triangle[t].vertex[(c + 1) % 3]);
-      const double length_squared = norm_squared(mesh_.position[high] - mesh_.position[low]);
+      const double length_squared = norm_squared(mesh_.edge(low, high));
       const double limit = parameters_.collapse_below * edge_target(low, high);
       if (length_squared < limit * limit || hangs_in_three_triangles(low) || hangs_in_three_triangles(high))
         edges.push_back({length_squared, low, high});
@@ -143,7 +143,7 @@ bool Collapser::try_collapse(int v, int w) {
   drop_dead_from_star(v);
   drop_dead_from_star(w);
   const double target = edge_target(v, w);
-  const bool tiny = norm(mesh_.position[w] - mesh_.position[v]) < parameters_.tiny * target;
+  const bool tiny = norm(mesh_.edge(v, w)) < parameters_.tiny * target;
   const Candidate c{v, w, target, tiny || hangs_in_three_triangles(v)};
 
   const auto n_shared =
@@ -204,8 +204,8 @@ bool Collapser::keeps_shape(const Candidate& c, int triangle) const {
   Corners before, after;
   for (int n = 0; n < 3; ++n) {
     const int x = mesh_.triangle[triangle].vertex[n];
-    before[n] = mesh_.position[x];
-    after[n] = mesh_.position[x == c.v ? c.w : x];
+    before[n] = mesh_.domain.near(mesh_.position[x], mesh_.position[c.v]);
+    after[n] = mesh_.domain.near(mesh_.position[x == c.v ? c.w : x], mesh_.position[c.v]);
   }
   if (!keeps_orientation(c, triangle, before, after) || !keeps_lengths(c, triangle, after)) return false;
   if (c.tiny) return true;

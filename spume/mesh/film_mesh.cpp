@@ -11,8 +11,7 @@ FilmTriangle make_triangle(int v0, int v1, int v2, Phase p, Phase q) {
 
 Vec3 doubled_area_normal(const FilmMesh& mesh, int triangle) {
   const auto& v = mesh.triangle[triangle].vertex;
-  const Vec3& a = mesh.position[v[0]];
-  return cross(mesh.position[v[1]] - a, mesh.position[v[2]] - a);
+  return cross(mesh.edge(v[0], v[1]), mesh.edge(v[0], v[2]));
 }
 
 double triangle_area(const FilmMesh& mesh, int triangle) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "spume/base/domain.hpp"
 #include "spume/base/vec3.hpp"
 #include "spume/mesh/phase_set.hpp"
 
@@ -17,12 +18,25 @@ struct FilmTriangle {
 
 /// The interface: conforming triangles of all films. The same on every rank. Everything else about it (phases
 /// of a vertex, lamellae, Plateau borders, junctions) follows from these two arrays: see topology.hpp.
+///
+/// In a periodic box films continue across its faces: a vertex is stored by any of its images, and a triangle
+/// joins those images of its vertices that are nearest to each other. Whoever needs differences of positions
+/// takes them from edge() or corners().
 struct FilmMesh {
   std::vector<Vec3> position;  ///< of vertices [m]
   std::vector<FilmTriangle> triangle;
+  Domain domain;
 
   int n_vertices() const { return static_cast<int>(position.size()); }
   int n_triangles() const { return static_cast<int>(triangle.size()); }
+  /// From one vertex to the nearest image of another [m].
+  Vec3 edge(int from, int to) const { return domain.step(position[from], position[to]); }
+  /// The corners of a triangle where they lie together: the first as stored [m].
+  std::array<Vec3, 3> corners(int t) const {
+    const auto& v = triangle[t].vertex;
+    const Vec3& a = position[v[0]];
+    return {a, domain.near(position[v[1]], a), domain.near(position[v[2]], a)};
+  }
 };
 
 /// A triangle between phases p and q whose normal points from p into q, put in the order phase_a < phase_b.

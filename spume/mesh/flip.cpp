@@ -53,18 +53,16 @@ bool are_joined(const FilmMesh& mesh, const Stars& star, int p, int q) {
 }
 
 bool flip_improves(const WorkingMesh& work, const Stars& star, const Hinge& e) {
-  const auto& x = work.mesh.position;
+  const Vec3 xa = work.mesh.position[e.a], xb = xa + work.mesh.edge(e.a, e.b),
+             left = xa + work.mesh.edge(e.a, e.left), right = xa + work.mesh.edge(e.a, e.right);
   if (e.left == e.right) return false;
   if (work.kind(e.left) != VertexKind::Film && work.kind(e.right) != VertexKind::Film) return false;
-  if (angle_at(x[e.left], x[e.a], x[e.b]) + angle_at(x[e.right], x[e.a], x[e.b]) <
-      std::numbers::pi + angle_margin)
-    return false;
+  if (angle_at(left, xa, xb) + angle_at(right, xa, xb) < std::numbers::pi + angle_margin) return false;
   if (are_joined(work.mesh, star, e.left, e.right)) return false;
 
-  const Vec3 before =
-      cross(x[e.b] - x[e.a], x[e.left] - x[e.a]) + cross(x[e.a] - x[e.b], x[e.right] - x[e.b]);
-  const Vec3 at_a = cross(x[e.right] - x[e.a], x[e.left] - x[e.a]);
-  const Vec3 at_b = cross(x[e.left] - x[e.b], x[e.right] - x[e.b]);
+  const Vec3 before = cross(xb - xa, left - xa) + cross(xa - xb, right - xb);
+  const Vec3 at_a = cross(right - xa, left - xa);
+  const Vec3 at_b = cross(left - xb, right - xb);
   const double least = least_cosine * norm(before);
   return dot(at_a, before) >= least * norm(at_a) && dot(at_b, before) >= least * norm(at_b);
 }

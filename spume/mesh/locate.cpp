@@ -95,16 +95,16 @@ TriangleLocator::TriangleLocator(const FilmMesh& mesh, double bin_size)
     : mesh_(&mesh), bin_size_(bin_size), n_bins_{0, 0, 0} {
   expects(bin_size > 0, "bins have a size");
   if (mesh.triangle.empty()) return;
-  const auto box_of = [&](const FilmTriangle& t, Vec3& low, Vec3& high) {
+  const auto box_of = [&](int t, Vec3& low, Vec3& high) {
+    const auto [a, b, c] = stored_corners(t);
     for (int axis = 0; axis < 3; ++axis)
-      std::tie(low[axis], high[axis]) =
-          std::minmax({mesh.position[t.vertex[0]][axis], mesh.position[t.vertex[1]][axis],
-                       mesh.position[t.vertex[2]][axis]});
+      std::tie(low[axis], high[axis]) = std::minmax({a[axis], b[axis], c[axis]});
   };
   Vec3 low, high, corner;
-  box_of(mesh.triangle[0], origin_, corner);
-  for (const FilmTriangle& t : mesh.triangle) {
+  box_of(0, origin_, corner);
+  for (int t = 0; t < mesh.n_triangles(); ++t) {
     box_of(t, low, high);
+    longest_edge_ = std::max(longest_edge_, norm(high - low));
     for (int axis = 0; axis < 3; ++axis) {
       origin_[axis] = std::min(origin_[axis], low[axis]);
       corner[axis] = std::max(corner[axis], high[axis]);
@@ -118,7 +118,7 @@ TriangleLocator::TriangleLocator(const FilmMesh& mesh, double bin_size)
 
   const auto for_each_entry = [&](auto visit) {
     for (int t = 0; t < mesh.n_triangles(); ++t) {
-      box_of(mesh.triangle[t], low, high);
+      box_of(t, low, high);
       for_each_bin(bins_of_box(low, high, origin_, bin_size_, n_bins_), n_bins_,
                    [&](int bin) { visit(bin, t); });
     }
@@ -135,6 +135,22 @@ SurfacePoint TriangleLocator::closest(const Vec3& x, double reach,
                                       const std::function<bool(int triangle)>& accept) const {
   SurfacePoint found;
   if (bin_triangle_.empty()) return found;
+  double best_squared = reach * reach;
+  // Triangles are stored with their first corner in the box.
+  mesh_->domain.for_each_image(x, reach + longest_edge_,
+                               [&](const Vec3& image) { search(image, accept, best_squared, found); });
+  if (found.triangle >= 0) found.distance = std::sqrt(best_squared);
+  return found;
+}
+
+std::array<Vec3, 3> TriangleLocator::stored_corners(int t) const {
+  const auto [a, b, c] = mesh_->corners(t);
+  const Vec3 shift = mesh_->domain.inside(a) - a;
+  return {a + shift, b + shift, c + shift};
+}
+
+void TriangleLocator::search(const Vec3& x, const std::function<bool(int triangle)>& accept, double& best,
+                             SurfacePoint& found) const {
   // With x₀ the closest point of the box of bins to x, |x − p|² ≥ |x − x₀|² + |x₀ − p|² for every p in the
   // box, and a point in ring r around the bin of x₀ is at least r − 1 bins away from x₀.
   std::array<int, 3> centre;
@@ -148,7 +164,6 @@ SurfacePoint TriangleLocator::closest(const Vec3& x, double reach,
     centre[axis] = std::min(static_cast<int>(inside / bin_size_), n_bins_[axis] - 1);
     last_ring = std::max({last_ring, centre[axis], n_bins_[axis] - 1 - centre[axis]});
   }
-  double best = reach * reach;
   for (int ring = 0; ring <= last_ring; ++ring) {
     const double gap = std::max(ring - 1, 0) * bin_size_;
     // The hair's breadth keeps round-off from cutting off the first of equals.
@@ -156,10 +171,9 @@ SurfacePoint TriangleLocator::closest(const Vec3& x, double reach,
     for_each_bin_of_ring(centre, ring, n_bins_, [&](int bin) {
       for (int n = bin_offset_[bin]; n < bin_offset_[bin + 1]; ++n) {
         const int t = bin_triangle_[n];
-        const auto& v = mesh_->triangle[t].vertex;
+        const auto [a, b, c] = stored_corners(t);
         std::array<double, 3> weight;
-        const double distance_squared = closest_point_on_triangle(
-            x, mesh_->position[v[0]], mesh_->position[v[1]], mesh_->position[v[2]], weight);
+        const double distance_squared = closest_point_on_triangle(x, a, b, c, weight);
         const bool better = distance_squared < best ||
                             (distance_squared == best && (found.triangle < 0 || t < found.triangle));
         if (!better || (accept && !accept(t))) continue;
@@ -169,17 +183,17 @@ SurfacePoint TriangleLocator::closest(const Vec3& x, double reach,
       }
     });
   }
-  if (found.triangle >= 0) found.distance = std::sqrt(best);
-  return found;
 }
 
 std::vector<int> TriangleLocator::near(const Vec3& x, double radius) const {
   std::vector<int> triangles;
   if (bin_triangle_.empty()) return triangles;
   const Vec3 half{radius, radius, radius};
-  for_each_bin(bins_of_box(x - half, x + half, origin_, bin_size_, n_bins_), n_bins_, [&](int bin) {
-    triangles.insert(triangles.end(), bin_triangle_.begin() + bin_offset_[bin],
-                     bin_triangle_.begin() + bin_offset_[bin + 1]);
+  mesh_->domain.for_each_image(x, radius + longest_edge_, [&](const Vec3& image) {
+    for_each_bin(bins_of_box(image - half, image + half, origin_, bin_size_, n_bins_), n_bins_, [&](int bin) {
+      triangles.insert(triangles.end(), bin_triangle_.begin() + bin_offset_[bin],
+                       bin_triangle_.begin() + bin_offset_[bin + 1]);
+    });
   });
   std::sort(triangles.begin(), triangles.end());
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());

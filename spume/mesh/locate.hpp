@@ -20,8 +20,8 @@ double closest_point_on_triangle(const Vec3& x, const Vec3& a, const Vec3& b, co
                                  std::array<double, 3>& weight);
 
 /// Bins the triangles of a mesh in cubes of edge `bin_size`, to find closest points. Keeps a reference to the
-/// mesh, which must not move meanwhile. A bin size that would make more than 2²² bins is doubled until it
-/// does not.
+/// mesh, which must not move meanwhile. In a periodic box all images of the triangles count. A bin size that
+/// would make more than 2²² bins is doubled until it does not.
 class TriangleLocator {
  public:
   TriangleLocator(const FilmMesh& mesh, double bin_size);
@@ -33,8 +33,13 @@ class TriangleLocator {
   std::vector<int> near(const Vec3& x, double radius) const;
 
  private:
+  /// Betters `found` by triangles as they are stored.
+  void search(const Vec3& x, const std::function<bool(int triangle)>& accept, double& best_squared,
+              SurfacePoint& found) const;
+  std::array<Vec3, 3> stored_corners(int t) const;
+
   const FilmMesh* mesh_;
-  double bin_size_;
+  double bin_size_, longest_edge_ = 0;
   Vec3 origin_;
   std::array<int, 3> n_bins_;
   std::vector<int> bin_offset_, bin_triangle_;

@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 
+#include "spume/mesh/phase_frames.hpp"
+
 namespace spume::mesh {
 
 double film_area(const FilmMesh& mesh) {
@@ -11,17 +13,17 @@ double film_area(const FilmMesh& mesh) {
 }
 
 std::vector<double> phase_volumes(const FilmMesh& mesh, int n_phases) {
+  const PhaseFrames frames(mesh, n_phases);
   std::vector<double> volume(n_phases, 0.0);
-  if (mesh.position.empty()) return volume;
-  // Measured from a vertex of the mesh, so that round-off does not grow with the distance from the origin.
-  const Vec3 o = mesh.position.front();
-  for (const auto& t : mesh.triangle) {
-    const Vec3 a = mesh.position[t.vertex[0]] - o, b = mesh.position[t.vertex[1]] - o,
-               c = mesh.position[t.vertex[2]] - o;
-    const double cone = dot(a, cross(b, c)) / 6;
-    volume[t.phase_a] += cone;
-    volume[t.phase_b] -= cone;
+  for (int t = 0; t < mesh.n_triangles(); ++t) {
+    const auto& triangle = mesh.triangle[t];
+    const auto corner = mesh.corners(t);
+    const Vec3 area = 0.5 * doubled_area_normal(mesh, t);
+    volume[triangle.phase_a] += frames.cone(triangle.phase_a, corner, area);
+    volume[triangle.phase_b] -= frames.cone(triangle.phase_b, corner, area);
   }
+  volume[0] = 0;
+  for (Phase p = 1; p < n_phases; ++p) volume[0] -= volume[p] = frames.volume(p, volume[p]);
   return volume;
 }
 
@@ -53,7 +55,7 @@ std::vector<double> film_dof_areas(const FilmMesh& mesh, const Topology& topolog
 std::vector<double> border_dof_lengths(const FilmMesh& mesh, const Topology& topology) {
   std::vector<double> length(topology.border_dof.size(), 0.0);
   for (const auto& edge : topology.border_edge) {
-    const double half = 0.5 * norm(mesh.position[edge.vertex[1]] - mesh.position[edge.vertex[0]]);
+    const double half = 0.5 * norm(mesh.edge(edge.vertex[0], edge.vertex[1]));
     for (int dof : edge.border_dof) length[dof] += half;
   }
   return length;
@@ -62,7 +64,7 @@ std::vector<double> border_dof_lengths(const FilmMesh& mesh, const Topology& top
 std::vector<double> border_lengths(const FilmMesh& mesh, const Topology& topology) {
   std::vector<double> length(topology.border.size(), 0.0);
   for (const auto& edge : topology.border_edge)
-    length[edge.border] += norm(mesh.position[edge.vertex[1]] - mesh.position[edge.vertex[0]]);
+    length[edge.border] += norm(mesh.edge(edge.vertex[0], edge.vertex[1]));
   return length;
 }
 
@@ -82,7 +84,7 @@ std::vector<Vec3> area_descent(const FilmMesh& mesh) {
     const Vec3 n = normalized(doubled_area_normal(mesh, t));
     const auto& v = mesh.triangle[t].vertex;
     for (int c = 0; c < 3; ++c) {
-      const Vec3 opposite_edge = mesh.position[v[(c + 2) % 3]] - mesh.position[v[(c + 1) % 3]];
+      const Vec3 opposite_edge = mesh.edge(v[(c + 1) % 3], v[(c + 2) % 3]);
       descent[v[c]] -= 0.5 * cross(n, opposite_edge);
     }
   }

@@ -28,8 +28,7 @@ Quality measure_quality(const FilmMesh& mesh, const Topology& topology) {
   std::vector<double> angle(mesh.n_triangles());
   Quality quality{0, 0, std::numeric_limits<double>::infinity(), 0, 0};
   for (int t = 0; t < mesh.n_triangles(); ++t) {
-    const auto& corner = mesh.triangle[t].vertex;
-    const Vec3 a = mesh.position[corner[0]], b = mesh.position[corner[1]], c = mesh.position[corner[2]];
+    const auto [a, b, c] = mesh.corners(t);
     angle[t] = smallest_angle(a, b, c) * 180 / std::numbers::pi;
     for (double length : {norm(b - a), norm(c - b), norm(a - c)}) {
       quality.shortest_edge = std::min(quality.shortest_edge, length);

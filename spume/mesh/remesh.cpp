@@ -28,8 +28,7 @@ int count_tiny_edges(const FilmMesh& mesh, const TargetLength& target, double ti
   const std::vector<double> target_length = targets_at_vertices(mesh, target);
   int n_tiny = 0;
   for (const MeshEdge& e : build_edges(mesh).edge)
-    n_tiny += norm(mesh.position[e.high] - mesh.position[e.low]) <
-              tiny * 0.5 * (target_length[e.low] + target_length[e.high]);
+    n_tiny += norm(mesh.edge(e.low, e.high)) < tiny * 0.5 * (target_length[e.low] + target_length[e.high]);
   return n_tiny;
 }
 

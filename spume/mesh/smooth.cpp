@@ -21,18 +21,19 @@ void smooth(WorkingMesh& work, const Projection& project) {
   FilmMesh& mesh = work.mesh;
   std::vector<WeightedMean> mean(mesh.n_vertices());
   for (int t = 0; t < mesh.n_triangles(); ++t) {
-    const auto& corner = mesh.triangle[t].vertex;
-    const Vec3 centroid =
-        (mesh.position[corner[0]] + mesh.position[corner[1]] + mesh.position[corner[2]]) / 3.0;
+    const auto [a, b, c] = mesh.corners(t);
+    const Vec3 centroid = (a + b + c) / 3.0;
     const double area = triangle_area(mesh, t);
-    for (int v : corner)
-      if (work.kind(v) == VertexKind::Film) mean[v].add(centroid, area);
+    for (int v : mesh.triangle[t].vertex)
+      if (work.kind(v) == VertexKind::Film) mean[v].add(mesh.domain.near(centroid, mesh.position[v]), area);
   }
   for (const MeshEdge& e : build_edges(mesh).edge) {
     if (e.n_uses != 3) continue;
-    const Vec3 a = mesh.position[e.low], b = mesh.position[e.high];
-    for (int v : {e.low, e.high})
-      if (work.kind(v) == VertexKind::Border) mean[v].add(0.5 * (a + b), norm(b - a));
+    const Vec3 along = mesh.edge(e.low, e.high);
+    if (work.kind(e.low) == VertexKind::Border)
+      mean[e.low].add(mesh.position[e.low] + 0.5 * along, norm(along));
+    if (work.kind(e.high) == VertexKind::Border)
+      mean[e.high].add(mesh.position[e.high] - 0.5 * along, norm(along));
   }
   for (int v = 0; v < mesh.n_vertices(); ++v) {
     if (work.held[v] || !(mean[v].weight > 0)) continue;

@@ -18,8 +18,8 @@ std::vector<LongEdge> long_edges(const FilmMesh& mesh, const EdgeTable& edges, c
   for (std::size_t n = 0; n < edges.edge.size(); ++n) {
     const MeshEdge& e = edges.edge[n];
     if (e.n_uses > 3) continue;
-    const double relative_length = norm(mesh.position[e.high] - mesh.position[e.low]) /
-                                   (0.5 * (target_length[e.low] + target_length[e.high]));
+    const double relative_length =
+        norm(mesh.edge(e.low, e.high)) / (0.5 * (target_length[e.low] + target_length[e.high]));
     if (relative_length > split_above) list.push_back({relative_length, static_cast<int>(n)});
   }
   std::sort(list.begin(), list.end(), [](const LongEdge& a, const LongEdge& b) {
@@ -35,7 +35,7 @@ int middle_vertex(WorkingMesh& work, const EdgeTable& edges, const MeshEdge& e, 
     phases.insert(t.phase_a);
     phases.insert(t.phase_b);
   }
-  const Vec3 middle = 0.5 * (work.mesh.position[e.low] + work.mesh.position[e.high]);
+  const Vec3 middle = work.mesh.position[e.low] + 0.5 * work.mesh.edge(e.low, e.high);
   const bool is_held = e.n_uses == 1;
   return work.add_vertex(is_held ? middle : project(middle, phases).value_or(middle), phases, is_held);
 }

@@ -72,11 +72,10 @@ Quadric fit_quadric(const mesh::FilmMesh& films, const mesh::Topology& topology,
                     const Vec3& normal, const std::vector<int>& points, double scale) {
   const Vec3 axis = std::abs(normal.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   const Vec3 u = normalized(cross(normal, axis)), v = cross(normal, u);
-  const Vec3& origin = films.position[topology.film_dof[centre].vertex];
   Eigen::Matrix<double, 5, 5> matrix = Eigen::Matrix<double, 5, 5>::Zero();
   Quadric right = Quadric::Zero();
   for (int point : points) {
-    const Vec3 r = (films.position[topology.film_dof[point].vertex] - origin) / scale;
+    const Vec3 r = films.edge(topology.film_dof[centre].vertex, topology.film_dof[point].vertex) / scale;
     const double x = dot(r, u), y = dot(r, v), z = dot(r, normal);
     if (norm_squared(r) == 0) continue;
     const double weight = 1 / (norm_squared(r) * norm_squared(r));
@@ -126,8 +125,7 @@ std::vector<double> curvature_squared(const mesh::FilmMesh& films, const mesh::T
     const bool inside = topology.vertex_kind[dof.vertex] == mesh::VertexKind::Film;
     const std::vector<int>& points = rings.around(static_cast<int>(d), inside ? 8 : 14);
     double mean_square = 0;
-    for (int p : points)
-      mean_square += norm_squared(films.position[topology.film_dof[p].vertex] - films.position[dof.vertex]);
+    for (int p : points) mean_square += norm_squared(films.edge(dof.vertex, topology.film_dof[p].vertex));
     if (!(mean_square > 0)) continue;
     const double scale = std::sqrt(mean_square / static_cast<double>(points.size()));
     const Quadric quadric = fit_quadric(films, topology, static_cast<int>(d), normal[d], points, scale);

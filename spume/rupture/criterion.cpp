@@ -23,7 +23,7 @@ bool near_junction(const state::FilmNetwork& network, int vertex, double radius)
   if (network.topology.vertex_kind[vertex] == mesh::VertexKind::Film) return false;
   const Vec3& x = network.mesh.position[vertex];
   return std::any_of(network.topology.junction.begin(), network.topology.junction.end(), [&](int junction) {
-    return norm_squared(network.mesh.position[junction] - x) <= radius * radius;
+    return norm_squared(network.mesh.domain.step(x, network.mesh.position[junction])) <= radius * radius;
   });
 }
 

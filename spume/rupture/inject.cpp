@@ -38,7 +38,8 @@ Shares shares_within(const Target& target, const LiquidBall& ball, double radius
   shares.dof.erase(std::unique(shares.dof.begin(), shares.dof.end()), shares.dof.end());
   for (int d : shares.dof) {
     const Vec3& x = target.films.position[target.topology.film_dof[d].vertex];
-    const double z = std::max(0.0, 1 - norm_squared(x - ball.centre) / (radius * radius));
+    const double z =
+        std::max(0.0, 1 - norm_squared(target.films.domain.step(ball.centre, x)) / (radius * radius));
     shares.weight.push_back(z * z * target.dof_area[d]);
     shares.sum += shares.weight.back();
   }

@@ -31,6 +31,7 @@ MergedMesh merge_phases(const mesh::FilmMesh& films, const mesh::Topology& topol
   const auto renamed = [&](mesh::Phase p) { return p == gone ? kept : p; };
   MergedMesh merged;
   merged.films.position = films.position;
+  merged.films.domain = films.domain;
   std::vector<int> old_triangle;
   for (int t = 0; t < films.n_triangles(); ++t) {
     const auto& triangle = films.triangle[t];

@@ -8,7 +8,7 @@ namespace spume::rupture {
 std::vector<double> border_edge_lengths(const mesh::FilmMesh& films, const mesh::Topology& topology) {
   std::vector<double> length;
   for (const auto& edge : topology.border_edge)
-    length.push_back(norm(films.position[edge.vertex[1]] - films.position[edge.vertex[0]]));
+    length.push_back(norm(films.edge(edge.vertex[0], edge.vertex[1])));
   return length;
 }
 

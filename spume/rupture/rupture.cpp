@@ -60,8 +60,8 @@ std::vector<LiquidBall> balls_of_ridges(const mesh::FilmMesh& films, const mesh:
           border_volume[d] * (length_at_dof[d] > 0 ? length[e] / length_at_dof[d] : 1.0 / edges_at_dof[d]);
     }
     if (!(volume > 0)) continue;
-    balls.push_back({0.5 * (films.position[edge.vertex[0]] + films.position[edge.vertex[1]]), volume,
-                     film_of_ridge(topology.border[edge.border], kept, gone)});
+    balls.push_back({films.position[edge.vertex[0]] + 0.5 * films.edge(edge.vertex[0], edge.vertex[1]),
+                     volume, film_of_ridge(topology.border[edge.border], kept, gone)});
   }
   return balls;
 }

@@ -6,6 +6,7 @@
 
 #include "spume/io/film_frame.hpp"
 #include "spume/mesh/measure.hpp"
+#include "spume/mesh/phase_frames.hpp"
 
 namespace spume::simulation {
 
@@ -64,31 +65,24 @@ std::vector<double> mean_curvatures(const mesh::FilmMesh& films, const mesh::Top
 }
 
 std::vector<PhaseShape> phase_shapes(const mesh::FilmMesh& films, int n_phases) {
-  std::vector<Vec3> lowest(n_phases, Vec3{infinity, infinity, infinity});
-  std::vector<Vec3> highest(n_phases, Vec3{-infinity, -infinity, -infinity});
-  for (const auto& t : films.triangle)
-    for (mesh::Phase p : {t.phase_a, t.phase_b})
-      for (int v : t.vertex)
-        for (int axis = 0; axis < 3; ++axis) {
-          lowest[p][axis] = std::min(lowest[p][axis], films.position[v][axis]);
-          highest[p][axis] = std::max(highest[p][axis], films.position[v][axis]);
-        }
+  const mesh::PhaseFrames frames(films, n_phases);
   // ∫ x dV over the tetrahedra from the middle of the phase to its triangles; outward of phase_a, inward of
   // phase_b.
   std::vector<Vec3> moment(n_phases);
   std::vector<double> volume(n_phases, 0.0);
-  for (const auto& t : films.triangle)
-    for (mesh::Phase p : {t.phase_a, t.phase_b}) {
-      const Vec3 middle = 0.5 * (lowest[p] + highest[p]);
-      const Vec3 a = films.position[t.vertex[0]] - middle, b = films.position[t.vertex[1]] - middle,
-                 c = films.position[t.vertex[2]] - middle;
-      const double tetrahedron = (p == t.phase_a ? 1 : -1) * dot(a, cross(b, c)) / 6;
+  for (int t = 0; t < films.n_triangles(); ++t)
+    for (mesh::Phase p : {films.triangle[t].phase_a, films.triangle[t].phase_b}) {
+      const Vec3 middle = frames.middle(p);
+      const auto corner = frames.place(p, films.corners(t));
+      const Vec3 a = corner[0] - middle, b = corner[1] - middle, c = corner[2] - middle;
+      const double tetrahedron = (p == films.triangle[t].phase_a ? 1 : -1) * dot(a, cross(b, c)) / 6;
       volume[p] += tetrahedron;
       moment[p] += 0.25 * tetrahedron * (a + b + c);
     }
   std::vector<PhaseShape> shapes(n_phases);
   for (int p = 0; p < n_phases; ++p)
-    shapes[p] = {0.5 * (lowest[p] + highest[p]) + moment[p] / volume[p], highest[p] - lowest[p]};
+    shapes[p] = {films.domain.inside(frames.middle(p) + moment[p] / volume[p]),
+                 frames.upper(p) - frames.lower(p)};
   return shapes;
 }
 

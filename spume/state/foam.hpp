@@ -9,7 +9,7 @@ namespace spume::state {
 
 /// A foam at one instant: all that a run needs to go on.
 struct Foam {
-  explicit Foam(const grid::Grid& grid) : gas(grid) {}
+  explicit Foam(const grid::Grid& grid) : gas(grid) { films.domain = grid.box().domain(); }
 
   double time = 0;  ///< [s]
   mesh::FilmMesh films;

@@ -39,7 +39,7 @@ BorderProfile::BorderProfile(const LiquidMesh& mesh, std::span<const double> vol
   std::vector<int> border_of_edge;
   for (const auto& edge : mesh.topology.border_edge) {
     const double f0 = value[edge.border_dof[0]], f1 = value[edge.border_dof[1]];
-    const double length = norm(mesh.films.position[edge.vertex[1]] - mesh.films.position[edge.vertex[0]]);
+    const double length = norm(mesh.films.edge(edge.vertex[0], edge.vertex[1]));
     const double slope = length > 0 ? (f1 - f0) / length : 0;
     piece_.push_back({length, f0, f1, slope, slope, std::min(f0, f1), std::max(f0, f1)});
     border_of_edge.push_back(edge.border);

@@ -21,10 +21,10 @@ struct LinePoint {
 /// Finds closest points on the edges of borders.
 class BorderLocator {
  public:
-  BorderLocator(const LiquidMesh& mesh, double bin_size) : mesh_(mesh), bins_(midpoints(mesh), bin_size) {
+  BorderLocator(const LiquidMesh& mesh, double bin_size)
+      : mesh_(mesh), bins_(midpoints(mesh), bin_size, mesh.films.domain) {
     for (const auto& edge : mesh.topology.border_edge)
-      longest_ =
-          std::max(longest_, norm(mesh.films.position[edge.vertex[1]] - mesh.films.position[edge.vertex[0]]));
+      longest_ = std::max(longest_, norm(mesh.films.edge(edge.vertex[0], edge.vertex[1])));
   }
 
   /// Closest on the edges that `accept` takes, within `reach` [m]; the first of equals in edge order.
@@ -35,8 +35,8 @@ class BorderLocator {
     for (const Neighbour& near : found_) {
       const auto& edge = mesh_.topology.border_edge[near.point];
       if (!accept(near.point)) continue;
-      const Vec3& a = mesh_.films.position[edge.vertex[0]];
-      const Vec3 along = mesh_.films.position[edge.vertex[1]] - a;
+      const Vec3 a = mesh_.films.domain.near(mesh_.films.position[edge.vertex[0]], x);
+      const Vec3 along = mesh_.films.edge(edge.vertex[0], edge.vertex[1]);
       const double length_squared = norm_squared(along);
       const double t = length_squared > 0 ? std::clamp(dot(x - a, along) / length_squared, 0.0, 1.0) : 0;
       const double r2 = norm_squared(x - a - t * along);
@@ -51,7 +51,8 @@ class BorderLocator {
   static std::vector<Vec3> midpoints(const LiquidMesh& mesh) {
     std::vector<Vec3> points;
     for (const auto& edge : mesh.topology.border_edge)
-      points.push_back(0.5 * (mesh.films.position[edge.vertex[0]] + mesh.films.position[edge.vertex[1]]));
+      points.push_back(mesh.films.position[edge.vertex[0]] +
+                       0.5 * mesh.films.edge(edge.vertex[0], edge.vertex[1]));
     return points;
   }
 
@@ -74,7 +75,7 @@ struct Footprint {
 
 Vec3 direction(const LiquidMesh& mesh, int edge) {
   const auto& vertex = mesh.topology.border_edge[edge].vertex;
-  return normalized(mesh.films.position[vertex[1]] - mesh.films.position[vertex[0]]);
+  return normalized(mesh.films.edge(vertex[0], vertex[1]));
 }
 
 /// Direction of the border at each of its dofs, of either sign.

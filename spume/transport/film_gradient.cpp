@@ -48,7 +48,7 @@ std::vector<Vec3> film_gradient(const LiquidMesh& mesh, std::span<const double> 
   for (const auto& dof : mesh.topology.corner_dof)
     for (int corner = 0; corner < 3; ++corner) {
       const int i = dof[corner], j = dof[(corner + 1) % 3];
-      const Vec3 r = mesh.film_position(j) - mesh.film_position(i);
+      const Vec3 r = mesh.films.domain.step(mesh.film_position(i), mesh.film_position(j));
       if (norm_squared(r) == 0) continue;
       equations[i].add(r, value[j] - value[i]);
       equations[j].add(-r, value[i] - value[j]);

@@ -39,7 +39,7 @@ class HalfThickness {
     double value = w[0] * value_[dof[0]] + w[1] * value_[dof[1]] + w[2] * value_[dof[2]];
     for (int e = 0; e < 3; ++e) {
       const int i = e, j = (e + 1) % 3;
-      const Vec3 edge = mesh_.film_position(dof[j]) - mesh_.film_position(dof[i]);
+      const Vec3 edge = mesh_.films.domain.step(mesh_.film_position(dof[i]), mesh_.film_position(dof[j]));
       value += 0.5 * w[i] * w[j] * dot(gradient_[dof[i]] - gradient_[dof[j]], edge);
     }
     return std::clamp(value, std::min({least_around_[dof[0]], least_around_[dof[1]], least_around_[dof[2]]}),

@@ -49,8 +49,8 @@ LiquidMesh measure_liquid_mesh(const mesh::FilmMesh& films, const mesh::Topology
           std::move(dofs_of_lamella),
           std::move(dofs_of_border),
           rims(topology),
-          PointBins(positions_of(films, topology.film_dof), h),
-          PointBins(positions_of(films, topology.border_dof), h)};
+          PointBins(positions_of(films, topology.film_dof), h, films.domain),
+          PointBins(positions_of(films, topology.border_dof), h, films.domain)};
 }
 
 }  // namespace spume::transport

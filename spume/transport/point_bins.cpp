@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace spume::transport {
 
-PointBins::PointBins(std::vector<Vec3> points, double bin_size)
-    : points_(std::move(points)), bin_size_(bin_size) {
+PointBins::PointBins(std::vector<Vec3> points, double bin_size, const Domain& domain)
+    : domain_(domain), points_(std::move(points)), bin_size_(bin_size) {
+  for (Vec3& p : points_) p = domain_.inside(p);
   Vec3 upper;
   if (!points_.empty()) origin_ = upper = points_.front();
   for (const Vec3& p : points_)
@@ -47,6 +49,17 @@ std::array<int, 3> PointBins::bin_of(const Vec3& x) const {
 void PointBins::within(const Vec3& x, double radius, std::vector<Neighbour>& found) const {
   found.clear();
   if (points_.empty()) return;
+  domain_.for_each_image(x, radius, [&](const Vec3& image) { collect(image, radius, found); });
+  std::sort(found.begin(), found.end(), [](const Neighbour& a, const Neighbour& b) {
+    return std::tie(a.point, a.distance_squared) < std::tie(b.point, b.distance_squared);
+  });
+  // In a ball larger than half the box a point has several images: the nearest counts.
+  found.erase(std::unique(found.begin(), found.end(),
+                          [](const Neighbour& a, const Neighbour& b) { return a.point == b.point; }),
+              found.end());
+}
+
+void PointBins::collect(const Vec3& x, double radius, std::vector<Neighbour>& found) const {
   const Vec3 reach{radius, radius, radius};
   const auto low = bin_of(x - reach), high = bin_of(x + reach);
   const double radius_squared = radius * radius;
@@ -58,8 +71,6 @@ void PointBins::within(const Vec3& x, double radius, std::vector<Neighbour>& fou
         if (r2 < radius_squared) found.push_back({bin_point_[s], r2});
       }
     }
-  std::sort(found.begin(), found.end(),
-            [](const Neighbour& a, const Neighbour& b) { return a.point < b.point; });
 }
 
 }  // namespace spume::transport

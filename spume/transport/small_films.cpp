@@ -16,16 +16,18 @@ double total(std::span<const double> values) {
 
 double edge_length(const LiquidMesh& mesh, int edge) {
   const auto& vertex = mesh.topology.border_edge[edge].vertex;
-  return norm(mesh.films.position[vertex[1]] - mesh.films.position[vertex[0]]);
+  return norm(mesh.films.edge(vertex[0], vertex[1]));
 }
 
 /// Volume a unit of area [m] of the other films within donor_radius + √area of the middle of a lamella; 0:
 /// none there.
 double thickness_around(const LiquidMesh& mesh, int lamella, double radius,
                         std::span<const double> film_volume) {
-  Vec3 middle;
+  const Vec3 start = mesh.film_position(mesh.dofs_of_lamella[lamella].front());
+  Vec3 middle = start;
   for (int d : mesh.dofs_of_lamella[lamella])
-    middle += (mesh.dof_area[d] / mesh.lamella_area[lamella]) * mesh.film_position(d);
+    middle += (mesh.dof_area[d] / mesh.lamella_area[lamella]) *
+              mesh.films.domain.step(start, mesh.film_position(d));
   std::vector<Neighbour> found;
   mesh.film_bins.within(middle, radius, found);
   double volume = 0, area = 0;

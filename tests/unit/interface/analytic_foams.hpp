@@ -22,6 +22,11 @@ inline grid::Box cube_box(int cells) {
           {cells, cells, cells}};
 }
 
+inline grid::Box walled(grid::Box box) {
+  box.boundary.fill(grid::Boundary::Slip);
+  return box;
+}
+
 using Potential = std::function<double(mesh::Phase, const Vec3&)>;
 
 struct Ball {

@@ -38,15 +38,16 @@ Vec3 carried(int n_steps) {
     ux(i, j, l) = std::sin(k * x.x) * std::cos(k * x.y);
     uy(i, j, l) = -std::cos(k * x.x) * std::sin(k * x.y);
   });
-  mesh::FilmMesh films{{{1.3 * h, 2.1 * h, 0}}, {}};
+  mesh::FilmMesh films{{{1.3 * h, 2.1 * h, 0}}, {}, {}};
   for (int n = 0; n < n_steps; ++n) carry(films, u, {}, 4 * h / n_steps);
   return films.position[0];
 }
 
 TEST(Carry, IsOfSecondOrderInTime) {
-  const Vec3 exact = carried(1024);
-  const double coarse = norm(carried(16) - exact), fine = norm(carried(32) - exact);
-  EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.15);
+  const Vec3 exact = carried(8192);
+  // Steps well below a cell: the kernel's second derivative jumps where a cell enters it.
+  const double coarse = norm(carried(64) - exact), fine = norm(carried(512) - exact);
+  EXPECT_NEAR(std::log2(coarse / fine) / 3, 2.0, 0.1);
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ TEST(Contour, OfASphereHasItsVolumeAndOneClosedSurface) {
 
 TEST(Contour, PutsVerticesOnTheTiesOfLinearPotentials) {
   // Three half-planes at 120 degrees meet in the line x = 0.3 h, y = 0.2 h; linear functions are met exactly.
-  const grid::Box box = testing::cube_box(16);
+  const grid::Box box = testing::walled(testing::cube_box(16));
   const auto wedges = [](mesh::Phase p, const Vec3& x) {
     const double angle = 2 * M_PI * p / 3 + 0.4;
     return std::cos(angle) * (x.x - 0.3 * h) + std::sin(angle) * (x.y - 0.2 * h);
@@ -63,7 +63,7 @@ TEST(Contour, PutsVerticesOnTheTiesOfLinearPotentials) {
 TEST(Contour, FindsAPhaseThatWinsInsideAnEdgeOnly) {
   // Phase 2 is largest only in a slab thinner than a cell between phases 0 and 1, where no lattice point
   // lies.
-  const grid::Box box = testing::cube_box(8);
+  const grid::Box box = testing::walled(testing::cube_box(8));
   const auto slab = [](mesh::Phase p, const Vec3& x) { return p == 0 ? x.x : p == 1 ? -x.x : 0.2 * h; };
   const auto films = contour_of(testing::sampled(box, slab, 3));
   std::set<std::pair<int, int>> pairs;

@@ -28,7 +28,7 @@ testing::Potential union_of(std::vector<testing::Ball> balls) {
 PhasePieces separate(PhasePotentials& potentials, state::Phases& phases, std::vector<PhaseChange>& changes) {
   for (int n = 0; n < 4; ++n)
     if (!separate_pieces(potentials, find_winners(potentials), phases, smallest_volume, changes)) break;
-  return find_pieces(potentials.box().cells, find_winners(potentials).phase);
+  return find_pieces(potentials.lattice(), find_winners(potentials).phase);
 }
 
 TEST(PhasePieces, AreLinkedAlongTheEdgesOfTheTetrahedra) {
@@ -39,7 +39,7 @@ TEST(PhasePieces, AreLinkedAlongTheEdgesOfTheTetrahedra) {
   set(1, 1, 1, 1);  // one step along all axes: linked
   set(2, 0, 2, 2);
   set(3, 1, 1, 2);  // steps of both signs: not linked
-  const PhasePieces pieces = find_pieces(cells, winner);
+  const PhasePieces pieces = find_pieces(Lattice{cells}, winner);
   std::vector<int> of_phase(3, 0);
   for (const auto& piece : pieces.piece) ++of_phase[piece.phase];
   EXPECT_EQ(of_phase, (std::vector<int>{1, 1, 2}));

@@ -1,0 +1,110 @@
+#include "spume/mesh/phase_frames.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace spume::mesh {
+
+namespace {
+
+constexpr int n_bins = 128;  // along a periodic direction
+
+/// Which parts of a periodic direction the films of one phase take up.
+struct Occupancy {
+  std::array<char, n_bins> taken{};
+
+  /// The whole range [low, high] in units of bins, low anywhere.
+  void take(double low, double high) {
+    const double first = std::floor(low);
+    const int n = static_cast<int>(std::min<double>(std::floor(high) - first + 1, n_bins));
+    int bin = static_cast<int>(first - n_bins * std::floor(first / n_bins));
+    for (int m = 0; m < n; ++m, bin = bin + 1 == n_bins ? 0 : bin + 1) taken[bin] = 1;
+  }
+  /// Middle of what is taken, in bins: opposite to the middle of the longest gap; negative without a gap.
+  double middle() const {
+    int longest = 0, end_of_longest = 0, length = 0;
+    for (int m = 0; m < 2 * n_bins; ++m) {
+      length = taken[m % n_bins] ? 0 : length + 1;
+      if (length > longest && length <= n_bins) {
+        longest = length;
+        end_of_longest = m + 1;
+      }
+    }
+    if (longest == 0) return -1;
+    const double middle_of_gap = end_of_longest - 0.5 * longest;
+    return std::fmod(middle_of_gap + 0.5 * n_bins, n_bins);
+  }
+};
+
+}  // namespace
+
+PhaseFrames::PhaseFrames(const FilmMesh& mesh, int n_phases) : domain_(mesh.domain), frame_(n_phases) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<Vec3> middle(n_phases);
+  for (int d = 0; d < 3; ++d) {
+    if (!domain_.periodic[d]) continue;
+    std::vector<Occupancy> occupancy(n_phases);
+    const double bins_per_length = n_bins / domain_.size[d];
+    for (int t = 0; t < mesh.n_triangles(); ++t) {
+      const auto [a, b, c] = mesh.corners(t);
+      const double low = (std::min({a[d], b[d], c[d]}) - domain_.lower[d]) * bins_per_length;
+      const double high = (std::max({a[d], b[d], c[d]}) - domain_.lower[d]) * bins_per_length;
+      occupancy[mesh.triangle[t].phase_a].take(low, high);
+      occupancy[mesh.triangle[t].phase_b].take(low, high);
+    }
+    for (Phase p = 0; p < n_phases; ++p) {
+      const double bin = occupancy[p].middle();
+      frame_[p].bounded[d] = bin >= 0;
+      middle[p][d] = domain_.lower[d] + (bin >= 0 ? bin / bins_per_length : 0.5 * domain_.size[d]);
+    }
+  }
+  for (Frame& f : frame_) {
+    f.lower = {infinity, infinity, infinity};
+    f.upper = -f.lower;
+    f.n_bounded = f.bounded[0] + f.bounded[1] + f.bounded[2];
+  }
+  for (int t = 0; t < mesh.n_triangles(); ++t) {
+    const auto corner = mesh.corners(t);
+    for (Phase p : {mesh.triangle[t].phase_a, mesh.triangle[t].phase_b}) {
+      const Vec3 shift = domain_.near(corner[0], middle[p]) - corner[0];
+      for (const Vec3& x : corner)
+        for (int d = 0; d < 3; ++d) {
+          frame_[p].lower[d] = std::min(frame_[p].lower[d], x[d] + shift[d]);
+          frame_[p].upper[d] = std::max(frame_[p].upper[d], x[d] + shift[d]);
+        }
+    }
+  }
+  for (Frame& f : frame_)
+    for (int d = 0; d < 3; ++d)
+      if (!f.bounded[d]) {
+        f.lower[d] = domain_.lower[d];
+        f.upper[d] = domain_.lower[d] + domain_.size[d];
+      }
+}
+
+std::array<Vec3, 3> PhaseFrames::place(Phase p, const std::array<Vec3, 3>& corner) const {
+  const Vec3 shift = domain_.near(corner[0], middle(p)) - corner[0];
+  return {corner[0] + shift, corner[1] + shift, corner[2] + shift};
+}
+
+double PhaseFrames::cone(Phase p, const std::array<Vec3, 3>& corner, const Vec3& area) const {
+  const Frame& f = frame_[p];
+  // A layer between walls has no closed surface: what it holds is counted from the bottom of the box.
+  const Vec3 o = f.n_bounded == 3 ? middle(p) : domain_.lower;
+  const auto [a, b, c] = place(p, corner);
+  const Vec3 centroid = (1.0 / 3) * ((a - o) + (b - o) + (c - o));
+  double sum = 0;
+  for (int d = 0; d < 3; ++d)
+    if (f.bounded[d]) sum += centroid[d] * area[d];
+  return f.n_bounded > 0 ? sum / f.n_bounded : 0;
+}
+
+double PhaseFrames::volume(Phase p, double cones) const {
+  const Frame& f = frame_[p];
+  if (f.n_bounded == 3) return cones;
+  if (f.n_bounded == 0) return std::numeric_limits<double>::quiet_NaN();
+  return cones - domain_.volume() * std::floor(cones / domain_.volume());
+}
+
+}  // namespace spume::mesh

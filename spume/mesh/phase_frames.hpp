@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "spume/mesh/film_mesh.hpp"
+
+namespace spume::mesh {
+
+/// Where each phase lies in a periodic box. A phase whose films leave part of a direction free is bounded
+/// there, and can be looked at in one piece: by the images of its films nearest to its middle. A phase that
+/// goes all the way through (a layer, a tunnel) is not. In directions that are not periodic every phase is
+/// bounded.
+class PhaseFrames {
+ public:
+  PhaseFrames(const FilmMesh& mesh, int n_phases);
+
+  bool bounded(Phase p, int axis) const { return frame_[p].bounded[axis]; }
+  /// The range that the films of p take up [m], in images around the middle; the whole box in directions
+  /// without bound. Empty (lower > upper) for a phase without films.
+  const Vec3& lower(Phase p) const { return frame_[p].lower; }
+  const Vec3& upper(Phase p) const { return frame_[p].upper; }
+  Vec3 middle(Phase p) const { return 0.5 * (frame_[p].lower + frame_[p].upper); }
+
+  /// Corners of a triangle of phase p, moved together to the image that belongs to p's films [m].
+  std::array<Vec3, 3> place(Phase p, const std::array<Vec3, 3>& corner) const;
+  /// A triangle's part of the volume of p by the divergence theorem over the bounded directions:
+  ///   ∫ x_d n_d dA, mean over d, x from the middle of p [m³]. `area` is the area vector out of p [m²].
+  double cone(Phase p, const std::array<Vec3, 3>& corner, const Vec3& area) const;
+  /// The volume of p from the sum of its cones [m³]. A layer's cones give its volume but for a multiple of
+  /// that of the box. Not a number for a phase without bound in any direction.
+  double volume(Phase p, double cones) const;
+
+ private:
+  struct Frame {
+    Vec3 lower, upper;
+    std::array<bool, 3> bounded{true, true, true};
+    int n_bounded = 3;
+  };
+
+  Domain domain_;
+  std::vector<Frame> frame_;
+};
+
+}  // namespace spume::mesh
