@@ -38,6 +38,7 @@ struct NavierStokes::Implementation {
   GhostedVector velocity, force;
   GhostedField pressure;
   BlockVector acceleration;
+  StageTimes times;
 };
 
 NavierStokes::NavierStokes(const grid::Grid& grid, const state::Gas& gas, const FlowParameters& parameters)
@@ -58,9 +59,12 @@ void NavierStokes::Implementation::intermediate_rate(const state::GasFlow& flow,
   }
   pressure.update(flow.pressure);
   explicit_acceleration(grid, gas, velocity, pressure, force, acceleration);
+  times.lap("explicit terms");
 
   godunov.predict_normals(velocity, acceleration, max_speed(flow), dt);
+  times.lap("advection");
   projection.clear_divergence(godunov.face_velocity());
+  times.lap("MAC projection");
   godunov.advect(velocity, acceleration, dt, rate);
 
   const BlockLayout layout(grid);
@@ -73,12 +77,15 @@ void NavierStokes::Implementation::intermediate_rate(const state::GasFlow& flow,
                          for (std::ptrdiff_t i = 0; i < n; ++i) r[place + i] = known[row + i] - r[place + i];
                        });
   }
+  times.lap("advection");
   diffuse_implicitly(elliptic, gas, dt, rate);
+  times.lap("diffusion");
 }
 
 void NavierStokes::step(state::GasFlow& flow, const grid::VectorField& body_force, double dt) {
   expects(dt > 0, "a positive time step");
   Implementation& now = *implementation_;
+  now.times.restart();
   now.intermediate_rate(flow, body_force, dt);
   now.projection.project(now.gas.density, now.rate, flow.pressure);
 
@@ -92,6 +99,11 @@ void NavierStokes::step(state::GasFlow& flow, const grid::VectorField& body_forc
     throw NumericalError(
         (std::ostringstream() << "gas flow: the velocity is not finite after a step of " << dt << " s")
             .str());
+  now.times.lap("projections");
+}
+
+const StageTimes& NavierStokes::times() const {
+  return implementation_->times;
 }
 
 StepLimit NavierStokes::advection_limit(const state::GasFlow& flow, double cfl) const {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "spume/base/stage_times.hpp"
 #include "spume/grid/elliptic.hpp"
 #include "spume/state/gas_flow.hpp"
 #include "spume/state/materials.hpp"
@@ -39,6 +40,10 @@ class NavierStokes {
   ///
   /// Throws NumericalError when the result is not finite.
   void step(state::GasFlow& flow, const grid::VectorField& body_force, double dt);
+
+  /// Processor time of all steps so far: ghosts and explicit terms, advection, MAC projection, diffusion,
+  /// projections.
+  const StageTimes& times() const;
 
   /// dt ≤ cfl h / max|u|. Collective.
   StepLimit advection_limit(const state::GasFlow& flow, double cfl) const;

@@ -16,7 +16,7 @@ inline double limited(double slope, double below, double above) {
 }
 
 template <bool Limit>
-void slopes_of_row(std::ptrdiff_t n, std::ptrdiff_t s, const double* u, double* slope) {
+void row_of_slopes(std::ptrdiff_t n, std::ptrdiff_t s, const double* u, double* slope) {
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < n; ++i) {
     const double d_mm = u[i - s] - u[i - 2 * s];
@@ -36,14 +36,17 @@ void slopes_of_row(std::ptrdiff_t n, std::ptrdiff_t s, const double* u, double* 
 
 }  // namespace
 
+void slopes_of_row(std::ptrdiff_t n, std::ptrdiff_t stride, bool limit, const double* u, double* slope) {
+  if (limit)
+    row_of_slopes<true>(n, stride, u, slope);
+  else
+    row_of_slopes<false>(n, stride, u, slope);
+}
+
 void slopes(const BlockLayout& layout, const CellRange& range, int axis, bool limit, const double* u,
             double* slope) {
-  const std::ptrdiff_t s = layout.stride(axis);
   for_each_row(layout, range, [&](std::ptrdiff_t row, std::ptrdiff_t n) {
-    if (limit)
-      slopes_of_row<true>(n, s, u + row, slope + row);
-    else
-      slopes_of_row<false>(n, s, u + row, slope + row);
+    slopes_of_row(n, layout.stride(axis), limit, u + row, slope + row);
   });
 }
 

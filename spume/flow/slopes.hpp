@@ -12,4 +12,7 @@ namespace spume::flow {
 void slopes(const BlockLayout& layout, const CellRange& range, int axis, bool limit, const double* u,
             double* slope);
 
+/// The same for a row of n cells along x, neighbours along the axis `stride` apart in u.
+void slopes_of_row(std::ptrdiff_t n, std::ptrdiff_t stride, bool limit, const double* u, double* slope);
+
 }  // namespace spume::flow
