@@ -65,18 +65,7 @@ void NavierStokes::Implementation::intermediate_rate(const state::GasFlow& flow,
   times.lap("advection");
   projection.clear_divergence(godunov.face_velocity());
   times.lap("MAC projection");
-  godunov.advect(velocity, acceleration, dt, rate);
-
-  const BlockLayout layout(grid);
-  for (int c = 0; c < 3; ++c) {
-    const double* known = acceleration[c].first();
-    double* r = rate[c].values().data();
-    for_each_owned_row(layout, layout.owned(),
-                       [=](std::ptrdiff_t row, std::ptrdiff_t place, std::ptrdiff_t n) {
-#pragma GCC ivdep
-                         for (std::ptrdiff_t i = 0; i < n; ++i) r[place + i] = known[row + i] - r[place + i];
-                       });
-  }
+  godunov.accelerate(velocity, acceleration, dt, rate);
   times.lap("advection");
   diffuse_implicitly(elliptic, gas, dt, rate);
   times.lap("diffusion");

@@ -4,9 +4,9 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <unordered_map>
 
 #include "spume/base/error.hpp"
+#include "spume/base/flat_map.hpp"
 
 namespace spume::interface {
 
@@ -92,16 +92,28 @@ class Contourer {
   mesh::FilmMesh run() {
     CellBox cubes = whole_;
     for (int d = 0; d < 3; ++d) --cubes.end[d];
-    for_each_cell(cubes, [&](int i, int j, int k) {
-      read_winners(i, j, k);
-      bool uniform = true;
-      for (int c = 1; c < 8; ++c) uniform = uniform && cube_winner_[c] == cube_winner_[0];
-      if (!uniform) contour_cube(i, j, k);
-    });
+    for (int k = cubes.begin.k; k < cubes.end.k; ++k)
+      for (int j = cubes.begin.j; j < cubes.end.j; ++j) {
+        find_mixed_cubes(cubes.end.i, j, k);
+        for (int i = cubes.begin.i; i < cubes.end.i; ++i)
+          if (mixed_[i]) {
+            read_winners(i, j, k);
+            contour_cube(i, j, k);
+          }
+      }
     return std::move(films_);
   }
 
  private:
+  /// Marks the cubes of a row that are not of one winner.
+  void find_mixed_cubes(int n, int j, int k) {
+    mixed_.resize(n);
+    const mesh::Phase* w = &winner_[whole_.offset(0, j, k)];
+    const std::ptrdiff_t y = whole_.stride_y(), z = whole_.stride_z();
+    for (int i = 0; i < n; ++i)
+      mixed_[i] = (w[i] ^ w[i + 1]) | (w[i] ^ w[i + y]) | (w[i] ^ w[i + y + 1]) | (w[i] ^ w[i + z]) |
+                  (w[i] ^ w[i + z + 1]) | (w[i] ^ w[i + y + z]) | (w[i] ^ w[i + y + z + 1]);
+  }
   void read_winners(int i, int j, int k) {
     for (int c = 0; c < 8; ++c) cube_winner_[c] = winner_[lattice_point(i, j, k, c)];
   }
@@ -300,9 +312,9 @@ class Contourer {
         chain |= static_cast<std::uint64_t>(mask_[c] ^ mask_[lowest]) << (3 * n_steps++);
     VertexKey key{lattice_point(cube_.i, cube_.j, cube_.k, mask_[lowest]) << 9 | chain, {-1, -1, -1, -1}};
     std::copy(phases.begin(), phases.end(), key.phases.begin());
-    const auto [known, is_new] = vertex_of_.try_emplace(key, films_.n_vertices());
-    if (is_new) films_.position.push_back(position(polygon.corner[corner]));
-    return known->second;
+    const int number = vertex_of_.find_or_insert(key, films_.n_vertices());
+    if (number == films_.n_vertices()) films_.position.push_back(position(polygon.corner[corner]));
+    return number;
   }
 
   Vec3 position(const Corner& corner) const {
@@ -318,7 +330,9 @@ class Contourer {
   FieldBins bins_;
   CellBox whole_;
   mesh::FilmMesh films_;
-  std::unordered_map<VertexKey, int, VertexKeyHash> vertex_of_;
+  FlatMap<VertexKey, VertexKeyHash> vertex_of_;
+
+  std::vector<int> mixed_;  ///< of the row: 0 where all corners of a cube have one winner
 
   // of the cube
   Index3 cube_;

@@ -25,17 +25,22 @@ CubicWeights cubic_weights(double t) {
            (3 * t * t - 1) / 6}};
 }
 
-/// A row of four values of a field; outside its cells they are read one by one.
-std::array<double, 4> row(const PhaseField& f, int i, int j, int k) {
-  std::array<double, 4> values;
+/// 4 × 4 × 4 values of a field: where they begin, and the distances between rows and planes.
+struct ValueBlock {
+  const double* first;
+  std::ptrdiff_t stride_y, stride_z;
+};
+
+/// The values from cell (i, j, k) on; copied into `room` where the block is not inside the field's cells.
+ValueBlock values_at(const PhaseField& f, int i, int j, int k, std::array<double, 64>& room) {
   const CellBox& c = f.cells;
-  if (i >= c.begin.i && i + 4 <= c.end.i && c.contains(i, j, k)) {
-    const double* from = &f.value[c.offset(i, j, k)];
-    std::copy(from, from + 4, values.begin());
-  } else {
-    for (int n = 0; n < 4; ++n) values[n] = f.at(i + n, j, k);
-  }
-  return values;
+  if (c.contains(i, j, k) && c.contains(i + 3, j + 3, k + 3))
+    return {&f.value[c.offset(i, j, k)], c.stride_y(), c.stride_z()};
+  double* to = room.data();
+  for (int z = 0; z < 4; ++z)
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 4; ++x) *to++ = f.at(i + x, j + y, k + z);
+  return {room.data(), 4, 16};
 }
 
 bool is_near(const Vec3& x, const Vec3& start, double reach) {
@@ -80,28 +85,35 @@ double PhasePotentials::difference(const PhaseField& a, const PhaseField& b, con
             k = static_cast<int>(std::floor(place.z));
   const CubicWeights wx = cubic_weights(place.x - i), wy = cubic_weights(place.y - j),
                      wz = cubic_weights(place.z - k);
-  double value = 0;
-  Vec3 slope;
+  std::array<double, 64> room_a, room_b;
+  const ValueBlock va = values_at(a, i - 1, j - 1, k - 1, room_a),
+                   vb = values_at(b, i - 1, j - 1, k - 1, room_b);
+  // Sums over z and y for the four places along x at a time.
+  using Line = std::array<double, 4>;
+  Line value{}, slope_y{}, slope_z{};
   for (int c = 0; c < 4; ++c) {
-    double plane = 0, plane_x = 0, plane_y = 0;
+    Line plane{}, plane_y{};
     for (int m = 0; m < 4; ++m) {
-      const std::array<double, 4> va = row(a, i - 1, j - 1 + m, k - 1 + c),
-                                  vb = row(b, i - 1, j - 1 + m, k - 1 + c);
-      double line = 0, line_x = 0;
+      const double *pa = va.first + c * va.stride_z + m * va.stride_y,
+                   *pb = vb.first + c * vb.stride_z + m * vb.stride_y;
       for (int n = 0; n < 4; ++n) {
-        const double v = va[n] - vb[n];
-        line += wx.value[n] * v;
-        line_x += wx.slope[n] * v;
+        const double v = pa[n] - pb[n];
+        plane[n] += wy.value[m] * v;
+        plane_y[n] += wy.slope[m] * v;
       }
-      plane += wy.value[m] * line;
-      plane_x += wy.value[m] * line_x;
-      plane_y += wy.slope[m] * line;
     }
-    value += wz.value[c] * plane;
-    slope += Vec3{wz.value[c] * plane_x, wz.value[c] * plane_y, wz.slope[c] * plane};
+    for (int n = 0; n < 4; ++n) {
+      value[n] += wz.value[c] * plane[n];
+      slope_y[n] += wz.value[c] * plane_y[n];
+      slope_z[n] += wz.slope[c] * plane[n];
+    }
   }
-  gradient = 0.5 * per_h * slope;
-  return 0.5 * value;
+  const auto along_x = [](const Line& w, const Line& line) {
+    return w[0] * line[0] + w[1] * line[1] + w[2] * line[2] + w[3] * line[3];
+  };
+  gradient = (0.5 * per_h) *
+             Vec3{along_x(wx.slope, value), along_x(wx.value, slope_y), along_x(wx.value, slope_z)};
+  return 0.5 * along_x(wx.value, value);
 }
 
 std::optional<Vec3> PhasePotentials::project(const Vec3& x, const mesh::PhaseSet& phases) const {

@@ -32,7 +32,7 @@ double bisect(double low, double high, Function&& is_low) {
 }  // namespace
 
 double smoothing_kernel(double z) {
-  return std::exp(-z) * (1 + z + 0.5 * z * z);
+  return std::exp(-z) * smoothing_polynomial(z);
 }
 
 double flat_film_profile(double x, double variance) {

@@ -9,6 +9,10 @@ namespace spume::interface {
 /// moment does not, so smoothing moves a curved film as curvature flow over the "time" s/10 does (see
 /// step_in_advance.hpp).
 double smoothing_kernel(double z);
+/// T(z) without its exponential, 1 + z + z²/2.
+inline double smoothing_polynomial(double z) {
+  return 1 + z + 0.5 * z * z;
+}
 
 /// c − ½ across a flat film, where the smoothed indicator of the phase at x > 0 is c(x) [−]. With u = x²/s
 /// and G the Gaussian of variance s, the kernel above integrated over the plane is K = (u² − 10u + 15) G/8,
