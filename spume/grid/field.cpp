@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "spume/base/contract.hpp"
@@ -58,18 +59,45 @@ void mirror(const GhostedShape& shape, int axis, Side side, Parity parity, doubl
   }
 }
 
-/// Owned cells, ghosts from other ranks and periodic images, by PETSc; ghosts beyond walls stay unset.
-void exchange_by_petsc(const Field& f, int width, double* buffer) {
-  using parallel::petsc_check;
-  GhostExchange& exchange = ghost_exchange(f.grid(), width);
-  const Vec owned_values = exchange.owned.get();
-  const Vec ghosted_values = exchange.ghosted.get();
-  petsc_check(VecPlaceArray(owned_values, f.values().data()));
-  petsc_check(VecPlaceArray(ghosted_values, buffer));
-  petsc_check(DMGlobalToLocalBegin(exchange.dm.get(), owned_values, INSERT_VALUES, ghosted_values));
-  petsc_check(DMGlobalToLocalEnd(exchange.dm.get(), owned_values, INSERT_VALUES, ghosted_values));
-  petsc_check(VecResetArray(owned_values));
-  petsc_check(VecResetArray(ghosted_values));
+/// Images of the other end, over the whole extent of the other axes.
+void wrap(const GhostedShape& shape, int axis, double* buffer) {
+  const int w = shape.width, n = shape.inner[axis];
+  for (int g = 0; g < w; ++g) {
+    copy_plane(shape, axis, g, n + g, 1, buffer);
+    copy_plane(shape, axis, w + n + g, w + g, 1, buffer);
+  }
+}
+
+/// Puts contiguous rows of owned cells to their places in a buffer with ghosts, from layer `k` of the buffer
+/// on. `from` may be the beginning of that layer: rows are moved last first.
+void place_layers(const GhostedShape& shape, int k, int n_layers, const double* from, double* buffer) {
+  const Index3 n = shape.inner;
+  for (int layer = n_layers - 1; layer >= 0; --layer)
+    for (int j = n.j - 1; j >= 0; --j) {
+      double* to = buffer + (k + layer) * shape.stride[2] + (j + shape.width) * shape.stride[1] + shape.width;
+      std::memmove(to, from + (static_cast<std::ptrdiff_t>(layer) * n.j + j) * n.i, sizeof(double) * n.i);
+    }
+}
+
+/// Ghosts across z from the neighbouring ranks; a slab is at least as thick as its ghosts.
+void exchange_layers(const Field& f, const GhostedShape& shape, double* buffer) {
+  const Grid& grid = f.grid();
+  const parallel::Communicator& ranks = grid.communicator();
+  const bool periodic = grid.box().boundary[2] == Boundary::Periodic;
+  const int w = shape.width, n = shape.inner.k;
+  const int above = ranks.rank() + 1 < ranks.size() ? ranks.rank() + 1 : periodic ? 0 : MPI_PROC_NULL;
+  const int below = ranks.rank() > 0 ? ranks.rank() - 1 : periodic ? ranks.size() - 1 : MPI_PROC_NULL;
+  const std::ptrdiff_t layer = static_cast<std::ptrdiff_t>(shape.inner.i) * shape.inner.j;
+  const double* owned = f.values().data();
+  const int count = static_cast<int>(w * layer);
+  // Layers arrive packed at the beginning of where they belong.
+  double *lower = buffer, *upper = buffer + (w + n) * shape.stride[2];
+  MPI_Sendrecv(owned + (n - w) * layer, count, MPI_DOUBLE, above, 0, lower, count, MPI_DOUBLE, below, 0,
+               ranks.handle(), MPI_STATUS_IGNORE);
+  MPI_Sendrecv(owned, count, MPI_DOUBLE, below, 1, upper, count, MPI_DOUBLE, above, 1, ranks.handle(),
+               MPI_STATUS_IGNORE);
+  if (below != MPI_PROC_NULL) place_layers(shape, 0, w, lower, buffer);
+  if (above != MPI_PROC_NULL) place_layers(shape, w + n, w, upper, buffer);
 }
 
 }  // namespace
@@ -93,13 +121,22 @@ void exchange_ghosts(const Field& f, int width, std::vector<double>& buffer) {
   const Grid& grid = f.grid();
   const GhostedShape shape(grid, width);
   buffer.resize(shape.size());
-  exchange_by_petsc(f, width, buffer.data());
-  for (int axis = 0; axis < 3; ++axis) {
-    if (grid.box().boundary[axis] == Boundary::Periodic) continue;
-    const bool at_lower = axis != 2 || grid.z_begin() == 0;
-    const bool at_upper = axis != 2 || grid.z_end() == grid.cells().k;
-    if (at_lower) mirror(shape, axis, Side::Lower, f.symmetry()[axis], buffer.data());
-    if (at_upper) mirror(shape, axis, Side::Upper, f.symmetry()[axis], buffer.data());
+  place_layers(shape, width, shape.inner.k, f.values().data(), buffer.data());
+  const bool periodic_z = grid.box().boundary[2] == Boundary::Periodic;
+  if (grid.communicator().size() > 1)
+    exchange_layers(f, shape, buffer.data());
+  else if (periodic_z)
+    wrap(shape, 2, buffer.data());
+  if (!periodic_z && grid.z_begin() == 0) mirror(shape, 2, Side::Lower, f.symmetry()[2], buffer.data());
+  if (!periodic_z && grid.z_end() == grid.cells().k)
+    mirror(shape, 2, Side::Upper, f.symmetry()[2], buffer.data());
+  for (int axis : {1, 0}) {
+    if (grid.box().boundary[axis] == Boundary::Periodic) {
+      wrap(shape, axis, buffer.data());
+    } else {
+      mirror(shape, axis, Side::Lower, f.symmetry()[axis], buffer.data());
+      mirror(shape, axis, Side::Upper, f.symmetry()[axis], buffer.data());
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -89,26 +90,25 @@ double PhasePotentials::difference(const PhaseField& a, const PhaseField& b, con
   const ValueBlock va = values_at(a, i - 1, j - 1, k - 1, room_a),
                    vb = values_at(b, i - 1, j - 1, k - 1, room_b);
   // Sums over z and y for the four places along x at a time.
-  using Line = std::array<double, 4>;
+  using Line = double __attribute__((vector_size(32)));
   Line value{}, slope_y{}, slope_z{};
   for (int c = 0; c < 4; ++c) {
     Line plane{}, plane_y{};
     for (int m = 0; m < 4; ++m) {
       const double *pa = va.first + c * va.stride_z + m * va.stride_y,
                    *pb = vb.first + c * vb.stride_z + m * vb.stride_y;
-      for (int n = 0; n < 4; ++n) {
-        const double v = pa[n] - pb[n];
-        plane[n] += wy.value[m] * v;
-        plane_y[n] += wy.slope[m] * v;
-      }
+      Line row_a, row_b;
+      std::memcpy(&row_a, pa, sizeof row_a);
+      std::memcpy(&row_b, pb, sizeof row_b);
+      const Line v = row_a - row_b;
+      plane += wy.value[m] * v;
+      plane_y += wy.slope[m] * v;
     }
-    for (int n = 0; n < 4; ++n) {
-      value[n] += wz.value[c] * plane[n];
-      slope_y[n] += wz.value[c] * plane_y[n];
-      slope_z[n] += wz.slope[c] * plane[n];
-    }
+    value += wz.value[c] * plane;
+    slope_y += wz.value[c] * plane_y;
+    slope_z += wz.slope[c] * plane;
   }
-  const auto along_x = [](const Line& w, const Line& line) {
+  const auto along_x = [](const std::array<double, 4>& w, const Line& line) {
     return w[0] * line[0] + w[1] * line[1] + w[2] * line[2] + w[3] * line[3];
   };
   gradient = (0.5 * per_h) *

@@ -31,9 +31,12 @@ class FlatFilmMap {
   double distance(double indicator) const;
 
  private:
-  double variance_;
   double last_distance_, last_value_, last_slope_;  ///< where the linear continuation starts
-  std::vector<double> table_;  ///< distances at equal steps of c − ½ up to last_value_
+  struct Knot {
+    double distance, slope;  ///< the slope by the number of steps
+  };
+  double steps_per_value_;
+  std::vector<Knot> table_;  ///< at equal steps of c − ½ up to last_value_
 };
 
 }  // namespace spume::interface

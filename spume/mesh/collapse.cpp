@@ -74,6 +74,7 @@ class Collapser {
   bool hangs_in_three_triangles(int v) const {
     return work_.kind(v) == VertexKind::Film && !work_.held[v] && star_[v].size() == 3;
   }
+  bool is_inner_film(int v) const { return work_.kind(v) == VertexKind::Film && !work_.held[v]; }
   void drop_dead_from_star(int v) {
     std::erase_if(star_[v], [&](int t) { return dead_triangle_[t]; });
   }
@@ -111,8 +112,10 @@ std::vector<ShortEdge> Collapser::begin_pass() {
   for (int t = 0; t < mesh_.n_triangles(); ++t) {
     if (dead_triangle_[t]) continue;
     for (int c = 0; c < 3; ++c) {
-      const auto [low, high] =
-          std::minmax(mesh_.triangle[t].vertex[c], mesh_.triangle[t].vertex[(c + 1) % 3]);
+      const int from = mesh_.triangle[t].vertex[c], to = mesh_.triangle[t].vertex[(c + 1) % 3];
+      // An edge inside a film runs forward in one triangle and backward in the other.
+      if (to < from && (is_inner_film(from) || is_inner_film(to))) continue;
+      const auto [low, high] = std::minmax(from, to);
       const double length_squared = norm_squared(mesh_.position[high] - mesh_.position[low]);
       const double limit = parameters_.collapse_below * edge_target(low, high);
       if (length_squared < limit * limit || hangs_in_three_triangles(low) || hangs_in_three_triangles(high))
