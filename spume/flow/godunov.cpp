@@ -66,9 +66,9 @@ struct Godunov::Known {
 
 /// Work values of a box of cells and one layer around it.
 struct Godunov::Tile {
-  /// Cells along y and z: small enough for the work values to stay in the second-level cache with rows of
-  /// 128 cells, large enough that the layer around the tile, which is computed twice, stays cheap.
-  static constexpr int ny = 8, nz = 16;
+  /// Cells along y and z: small enough for the work values to stay in cache with rows of some hundred
+  /// cells, large enough that the layer around the tile, which is computed twice, stays cheap.
+  static constexpr int ny = 16, nz = 16;
 
   explicit Tile(const BlockLayout& block_) : block(block_) {
     stride = {1, (block.owned().upper.i + 2 + 7) / 8 * 8, 0};

@@ -92,7 +92,8 @@ class Contourer {
   mesh::FilmMesh run() {
     CellBox cubes = whole_;
     for (int d = 0; d < 3; ++d) --cubes.end[d];
-    for (int k = cubes.begin.k; k < cubes.end.k; ++k)
+    for (int k = cubes.begin.k; k < cubes.end.k; ++k) {
+      vertex_of_[(k + 1) % 2].clear();
       for (int j = cubes.begin.j; j < cubes.end.j; ++j) {
         find_mixed_cubes(cubes.end.i, j, k);
         for (int i = cubes.begin.i; i < cubes.end.i; ++i)
@@ -101,6 +102,7 @@ class Contourer {
             contour_cube(i, j, k);
           }
       }
+    }
     return std::move(films_);
   }
 
@@ -312,7 +314,8 @@ class Contourer {
         chain |= static_cast<std::uint64_t>(mask_[c] ^ mask_[lowest]) << (3 * n_steps++);
     VertexKey key{lattice_point(cube_.i, cube_.j, cube_.k, mask_[lowest]) << 9 | chain, {-1, -1, -1, -1}};
     std::copy(phases.begin(), phases.end(), key.phases.begin());
-    const int number = vertex_of_.find_or_insert(key, films_.n_vertices());
+    auto& vertex_of = vertex_of_[(cube_.k + (mask_[lowest] >> 2)) % 2];
+    const int number = vertex_of.find_or_insert(key, films_.n_vertices());
     if (number == films_.n_vertices()) films_.position.push_back(position(polygon.corner[corner]));
     return number;
   }
@@ -330,7 +333,9 @@ class Contourer {
   FieldBins bins_;
   CellBox whole_;
   mesh::FilmMesh films_;
-  FlatMap<VertexKey, VertexKeyHash> vertex_of_;
+  /// Of the vertices whose lowest lattice point is in an even layer, and in an odd one: only those of the two
+  /// layers that the cubes at work lie between, which stay in cache.
+  std::array<FlatMap<VertexKey, VertexKeyHash>, 2> vertex_of_;
 
   std::vector<int> mixed_;  ///< of the row: 0 where all corners of a cube have one winner
 

@@ -98,9 +98,10 @@ class TriangleSpread {
     for (int c = std::max(0, first_.k - wz.first); c < std::min(5, last_.k - wz.first); ++c) {
       double* row = value_.data() + (wz.first + c - first_.k) * plane_ + (wy.first - first_.j) * width_ +
                     (wx.first - first_.i);
+      const double fx = f.x * wz.value[c], fy = f.y * wz.value[c], fz = f.z * wz.difference[c];
       for (int b = 0; b < 5; ++b, row += width_) {
-        const double across = f.x * wy.value[b] * wz.value[c];
-        const double along = f.y * wy.difference[b] * wz.value[c] + f.z * wy.value[b] * wz.difference[c];
+        const double across = fx * wy.value[b];
+        const double along = fy * wy.difference[b] + fz * wy.value[b];
         // Three more places than have weights: a whole vector is quicker than five numbers.
         Eight sum;
         std::memcpy(&sum, row, sizeof sum);

@@ -52,7 +52,9 @@ class Collapser {
         star_(vertex_stars(work.mesh)),
         dead_triangle_(work.mesh.n_triangles(), 0),
         dead_vertex_(work.mesh.n_vertices(), 0),
-        normal_(work.mesh.n_vertices()) {}
+        normal_(work.mesh.n_vertices()) {
+    for (int v = 0; v < mesh_.n_vertices(); ++v) kind_.push_back(work_.kind(v));
+  }
 
   int run() {
     int n_collapsed = 0;
@@ -72,15 +74,17 @@ class Collapser {
   }
   double edge_target(int a, int b) const { return 0.5 * (target_[a] + target_[b]); }
   bool hangs_in_three_triangles(int v) const {
-    return work_.kind(v) == VertexKind::Film && !work_.held[v] && star_[v].size() == 3;
+    return kind(v) == VertexKind::Film && !work_.held[v] && star_[v].size() == 3;
   }
-  bool is_inner_film(int v) const { return work_.kind(v) == VertexKind::Film && !work_.held[v]; }
+  VertexKind kind(int v) const { return kind_[v]; }
+  bool is_inner_film(int v) const { return kind(v) == VertexKind::Film && !work_.held[v]; }
   void drop_dead_from_star(int v) {
     std::erase_if(star_[v], [&](int t) { return dead_triangle_[t]; });
   }
 
   /// Fresh stars and normals; the edges to collapse, shortest first, each once.
   std::vector<ShortEdge> begin_pass();
+  void fetch_ahead(const std::vector<ShortEdge>& edges, std::size_t n) const;
   int collapse_listed(const std::vector<ShortEdge>& edges);
   bool try_collapse(int v, int w);
   bool is_allowed_by_kind(const Candidate& c, int n_shared) const;
@@ -94,6 +98,7 @@ class Collapser {
   FilmMesh& mesh_;
   const RemeshParameters& parameters_;
   std::vector<double> target_;  // at vertices
+  std::vector<VertexKind> kind_;
   std::vector<std::vector<int>> star_;
   std::vector<char> dead_triangle_, dead_vertex_;
   std::vector<Vec3> normal_;          // of film vertices, at the start of the pass
@@ -104,7 +109,7 @@ std::vector<ShortEdge> Collapser::begin_pass() {
   for (int v = 0; v < mesh_.n_vertices(); ++v) {
     drop_dead_from_star(v);
     normal_[v] = {};
-    if (work_.kind(v) != VertexKind::Film) continue;
+    if (kind(v) != VertexKind::Film) continue;
     for (int t : star_[v]) normal_[v] += doubled_area_normal(mesh_, t);
     normal_[v] = normalized(normal_[v]);
   }
@@ -130,14 +135,32 @@ std::vector<ShortEdge> Collapser::begin_pass() {
   return edges;
 }
 
+/// Edges in the order of their lengths lie anywhere in memory; the processor is told early what comes.
+void Collapser::fetch_ahead(const std::vector<ShortEdge>& edges, std::size_t n) const {
+  constexpr std::size_t far = 12, near = 6, next = 3;
+  if (n + far < edges.size())
+    for (int v : {edges[n + far].low, edges[n + far].high}) {
+      __builtin_prefetch(&star_[v]);
+      __builtin_prefetch(&mesh_.position[v]);
+      __builtin_prefetch(&work_.phases[v]);
+    }
+  if (n + near < edges.size())
+    for (int v : {edges[n + near].low, edges[n + near].high}) __builtin_prefetch(star_[v].data());
+  if (n + next < edges.size())
+    for (int v : {edges[n + next].low, edges[n + next].high})
+      for (int t : star_[v]) __builtin_prefetch(&mesh_.triangle[t]);
+}
+
 int Collapser::collapse_listed(const std::vector<ShortEdge>& edges) {
   int n_collapsed = 0;
-  for (const ShortEdge& e : edges) {
+  for (std::size_t n = 0; n < edges.size(); ++n) {
+    fetch_ahead(edges, n);
+    const ShortEdge& e = edges[n];
     if (dead_vertex_[e.low] || dead_vertex_[e.high]) continue;
     int v = e.low, w = e.high;  // v goes: the one of lower precedence, or else a needless one
-    if (work_.kind(w) < work_.kind(v) || (work_.kind(w) == work_.kind(v) && hangs_in_three_triangles(w)))
+    if (kind(w) < kind(v) || (kind(w) == kind(v) && hangs_in_three_triangles(w)))
       std::swap(v, w);
-    if (try_collapse(v, w) || (work_.kind(v) == work_.kind(w) && try_collapse(w, v))) ++n_collapsed;
+    if (try_collapse(v, w) || (kind(v) == kind(w) && try_collapse(w, v))) ++n_collapsed;
   }
   return n_collapsed;
 }
@@ -159,10 +182,9 @@ bool Collapser::try_collapse(int v, int w) {
 }
 
 bool Collapser::is_allowed_by_kind(const Candidate& c, int n_shared) const {
-  const VertexKind kind = work_.kind(c.v);
-  if (kind == VertexKind::Junction || work_.held[c.v] || !work_.phases[c.w].contains(work_.phases[c.v]))
+  if (kind(c.v) == VertexKind::Junction || work_.held[c.v] || !work_.phases[c.w].contains(work_.phases[c.v]))
     return false;
-  return n_shared == (kind == VertexKind::Border ? 3 : 2);
+  return n_shared == (kind(c.v) == VertexKind::Border ? 3 : 2);
 }
 
 /// The link condition: the neighbours that v and w share are the third corners of the triangles they share,

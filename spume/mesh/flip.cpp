@@ -56,6 +56,9 @@ bool flip_improves(const WorkingMesh& work, const Stars& star, const Hinge& e) {
   const auto& x = work.mesh.position;
   if (e.left == e.right) return false;
   if (work.kind(e.left) != VertexKind::Film && work.kind(e.right) != VertexKind::Film) return false;
+  // Two angles that are not obtuse need not be measured.
+  if (dot(x[e.a] - x[e.left], x[e.b] - x[e.left]) >= 0 && dot(x[e.a] - x[e.right], x[e.b] - x[e.right]) >= 0)
+    return false;
   if (angle_at(x[e.left], x[e.a], x[e.b]) + angle_at(x[e.right], x[e.a], x[e.b]) <
       std::numbers::pi + angle_margin)
     return false;
