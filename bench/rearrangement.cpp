@@ -1,7 +1,8 @@
-// One step of the rearrangement of a cluster of bubbles: the share of each stage, and the ratio to one Poisson
-// solve by FFTW of the same grid, timed between the steps of the same run: machines differ and drift, ratios
-// less so. The foam starts as overlapping spheres, far from equilibrium, and is reconstructed by the rule of
-// the program. Usage: bench_rearrangement [--cells 64 128] [--bubbles 1 4 27 100] [--steps 24] [--warm-up 8]
+// One step of the rearrangement of a cluster of bubbles: the share of each stage, and the ratio to one
+// Poisson solve by FFTW of the same grid, timed between the steps of the same run: machines differ and drift,
+// ratios less so. The foam starts as overlapping spheres, far from equilibrium, and is reconstructed by the
+// rule of the program. Usage: bench_rearrangement [--cells 64 128] [--bubbles 1 4 27 100] [--steps 24]
+// [--warm-up 8]
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
@@ -79,9 +80,8 @@ class Rearrangement {
     times_.lap("film forces");
     flow::spread_film_forces(foam_.films, forces, kernel_, force_);
     times_.lap("spreading");
-    const double dt =
-        std::min(flow::capillary_limit(h, materials, case_.rearrangement.capillary_factor).dt,
-                 gas_.advection_limit(foam_.gas, case_.rearrangement.cfl).dt);
+    const double dt = std::min(flow::capillary_limit(h, materials, case_.rearrangement.capillary_factor).dt,
+                               gas_.advection_limit(foam_.gas, case_.rearrangement.cfl).dt);
     times_.lap("time step");
     gas_.step(foam_.gas, force_, dt);
     times_.lap("gas");
@@ -198,8 +198,8 @@ void run(int cells, int bubbles, int n_warm_up, int n_steps) {
               bubbles, foam.n_triangles(), world.size(), n_steps, foam.n_reconstructions());
   std::printf("  one Poisson solve %9.5f s (median; best %.5f)\n", unit,
               *std::min_element(poisson.begin(), poisson.end()));
-  std::printf("  a step            %9.5f s = %.1f Poisson solves; %.3g cells*steps/s/core; wall %.5f s\n", step,
-              step / unit, n_cells / step / world.size(), wall_time / n_steps);
+  std::printf("  a step            %9.5f s = %.1f Poisson solves; %.3g cells*steps/s/core; wall %.5f s\n",
+              step, step / unit, n_cells / step / world.size(), wall_time / n_steps);
   if (memory > memory_before)
     std::printf("  peak memory       %9.0f bytes a cell, the program's own %.0f MB included\n",
                 memory / n_cells, memory_before / 1e6);

@@ -41,7 +41,7 @@ class FlatMap {
 
   Slot& slot_of(const Key& key) {
     const std::size_t mask = slots_.size() - 1;
-    std::size_t n = Hash{}(key) & mask;
+    std::size_t n = Hash{}(key)&mask;
     while (slots_[n].number >= 0 && !(slots_[n].key == key)) n = (n + 1) & mask;
     return slots_[n];
   }

@@ -91,12 +91,12 @@ struct Godunov::Tile {
 
   NormalTrace trace(const Known& known, int component, int axis) const {
     const double* of_axis = component == axis ? normal_slope[axis].data() : slope[axis].data();
-    return {known.velocity[component], known.velocity[axis], of_axis, known.dt / known.h, block.stride(axis),
-            stride[axis]};
+    return {known.velocity[component], known.velocity[axis], of_axis,
+            known.dt / known.h,        block.stride(axis),   stride[axis]};
   }
   FaceStates face_states(const Known& known, int component, int axis) const {
-    return {trace(known, component, axis), known.acceleration[component],
-            transverse[(axis + 1) % 3].data(), transverse[(axis + 2) % 3].data(), 0.5 * known.dt};
+    return {trace(known, component, axis), known.acceleration[component], transverse[(axis + 1) % 3].data(),
+            transverse[(axis + 2) % 3].data(), 0.5 * known.dt};
   }
 
   void find_slopes(const Known& known, int component, int axis, std::vector<double>& values) const;
@@ -130,11 +130,12 @@ void Godunov::Tile::trace_winds(const Known& known) {
     find_slopes(known, axis, axis, normal_slope[axis]);
     const NormalTrace traced = trace(known, axis, axis);
     double* normal = wind[axis].data();
-    for_each_row(cells.grown(1).grown(axis, -1, 0), [=](std::ptrdiff_t c, std::ptrdiff_t t, std::ptrdiff_t n) {
+    for_each_row(
+        cells.grown(1).grown(axis, -1, 0), [=](std::ptrdiff_t c, std::ptrdiff_t t, std::ptrdiff_t n) {
 #pragma GCC ivdep
-      for (std::ptrdiff_t i = 0; i < n; ++i)
-        normal[t + i] = normal_velocity(calm, traced.below(c + i, t + i), traced.above(c + i, t + i));
-    });
+          for (std::ptrdiff_t i = 0; i < n; ++i)
+            normal[t + i] = normal_velocity(calm, traced.below(c + i, t + i), traced.above(c + i, t + i));
+        });
   }
 }
 
@@ -184,9 +185,9 @@ void Godunov::for_each_tile(Body&& body) {
   const CellRange owned = layout_.owned();
   for (int k = 0; k < owned.upper.k; k += Tile::nz)
     for (int j = 0; j < owned.upper.j; j += Tile::ny) {
-      tile_->cells = {{0, j, k},
-                      {owned.upper.i, std::min(j + Tile::ny, owned.upper.j),
-                       std::min(k + Tile::nz, owned.upper.k)}};
+      tile_->cells = {
+          {0, j, k},
+          {owned.upper.i, std::min(j + Tile::ny, owned.upper.j), std::min(k + Tile::nz, owned.upper.k)}};
       body();
     }
 }
@@ -202,13 +203,12 @@ void Godunov::predict_normals(const GhostedVector& u, const BlockVector& acceler
         if (e != axis) tile_->find_transverse_terms(known, axis, e);
       const FaceStates states = tile_->face_states(known, axis, axis);
       double* normal = face_velocity_[axis].first();
-      tile_->for_each_row(tile_->cells.grown(axis, 0, 1),
-                          [=](std::ptrdiff_t c, std::ptrdiff_t t, std::ptrdiff_t n) {
+      tile_->for_each_row(
+          tile_->cells.grown(axis, 0, 1), [=](std::ptrdiff_t c, std::ptrdiff_t t, std::ptrdiff_t n) {
 #pragma GCC ivdep
-                            for (std::ptrdiff_t i = 0; i < n; ++i)
-                              normal[c + i] = normal_velocity(calm, states.below(c + i, t + i),
-                                                              states.above(c + i, t + i));
-                          });
+            for (std::ptrdiff_t i = 0; i < n; ++i)
+              normal[c + i] = normal_velocity(calm, states.below(c + i, t + i), states.above(c + i, t + i));
+          });
     }
   });
   close_walls();
@@ -244,14 +244,13 @@ void Godunov::advect_each_row(const GhostedVector& u, const BlockVector& acceler
         const FaceStates states = tile_->face_states(known, component, axis);
         const double* normal = face_velocity_[axis].first();
         double* flux = tile_->face[axis].data();
-        tile_->for_each_row(tile_->cells.grown(axis, 0, 1),
-                            [=](std::ptrdiff_t c, std::ptrdiff_t t, std::ptrdiff_t n) {
+        tile_->for_each_row(
+            tile_->cells.grown(axis, 0, 1), [=](std::ptrdiff_t c, std::ptrdiff_t t, std::ptrdiff_t n) {
 #pragma GCC ivdep
-                              for (std::ptrdiff_t i = 0; i < n; ++i)
-                                flux[t + i] = normal[c + i] * upwind(normal[c + i], calm,
-                                                                     states.below(c + i, t + i),
-                                                                     states.above(c + i, t + i));
-                            });
+              for (std::ptrdiff_t i = 0; i < n; ++i)
+                flux[t + i] = normal[c + i] * upwind(normal[c + i], calm, states.below(c + i, t + i),
+                                                     states.above(c + i, t + i));
+            });
       }
       const double *x = tile_->face[0].data(), *y = tile_->face[1].data(), *z = tile_->face[2].data();
       const std::ptrdiff_t sy = tile_->stride[1], sz = tile_->stride[2];
@@ -267,21 +266,23 @@ void Godunov::advect_each_row(const GhostedVector& u, const BlockVector& acceler
 
 void Godunov::advect(const GhostedVector& u, const BlockVector& acceleration, double dt,
                      grid::VectorField& advection) {
-  advect_each_row(u, acceleration, dt, [&](int component, std::ptrdiff_t c, std::ptrdiff_t n, auto&& divergence) {
-    double* row = advection[component].values().data() + layout_.place(c);
+  advect_each_row(u, acceleration, dt,
+                  [&](int component, std::ptrdiff_t c, std::ptrdiff_t n, auto&& divergence) {
+                    double* row = advection[component].values().data() + layout_.place(c);
 #pragma GCC ivdep
-    for (std::ptrdiff_t i = 0; i < n; ++i) row[i] = divergence(i);
-  });
+                    for (std::ptrdiff_t i = 0; i < n; ++i) row[i] = divergence(i);
+                  });
 }
 
 void Godunov::accelerate(const GhostedVector& u, const BlockVector& acceleration, double dt,
                          grid::VectorField& rate) {
-  advect_each_row(u, acceleration, dt, [&](int component, std::ptrdiff_t c, std::ptrdiff_t n, auto&& divergence) {
-    double* row = rate[component].values().data() + layout_.place(c);
-    const double* a = acceleration[component].first() + c;
+  advect_each_row(u, acceleration, dt,
+                  [&](int component, std::ptrdiff_t c, std::ptrdiff_t n, auto&& divergence) {
+                    double* row = rate[component].values().data() + layout_.place(c);
+                    const double* a = acceleration[component].first() + c;
 #pragma GCC ivdep
-    for (std::ptrdiff_t i = 0; i < n; ++i) row[i] = a[i] - divergence(i);
-  });
+                    for (std::ptrdiff_t i = 0; i < n; ++i) row[i] = a[i] - divergence(i);
+                  });
 }
 
 }  // namespace spume::flow

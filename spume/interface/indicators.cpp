@@ -205,8 +205,8 @@ grid::SpectralFilter indicator_filter(const grid::Grid& grid, double variance) {
               const double laplacian = y.laplacian[j] + z.laplacian[k], z_yz = y.z[j] + z.z[k],
                            other = -y.other[j] * z.other[k];
               for (std::size_t i = 0; i < factors.size(); ++i)
-                factors[i] = smoothing_polynomial(x.z[i] + z_yz) * other * x.other[i] /
-                             (x.laplacian[i] + laplacian);
+                factors[i] =
+                    smoothing_polynomial(x.z[i] + z_yz) * other * x.other[i] / (x.laplacian[i] + laplacian);
               if (!(x.laplacian[0] + laplacian > 0)) factors[0] = 0;  // the mean, given by the volume
             };
           }};

@@ -111,8 +111,8 @@ double PhasePotentials::difference(const PhaseField& a, const PhaseField& b, con
   const auto along_x = [](const std::array<double, 4>& w, const Line& line) {
     return w[0] * line[0] + w[1] * line[1] + w[2] * line[2] + w[3] * line[3];
   };
-  gradient = (0.5 * per_h) *
-             Vec3{along_x(wx.slope, value), along_x(wx.value, slope_y), along_x(wx.value, slope_z)};
+  gradient =
+      (0.5 * per_h) * Vec3{along_x(wx.slope, value), along_x(wx.value, slope_y), along_x(wx.value, slope_z)};
   return 0.5 * along_x(wx.value, value);
 }
 

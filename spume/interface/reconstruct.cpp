@@ -82,7 +82,8 @@ Reconstruction reconstruct(const grid::Grid& grid, const mesh::FilmMesh& films, 
   for (int round = 0;; ++round) {
     found = find_films(*potentials, phases, smallest_volume, report.changes);
     report.times.lap("contour");
-    report.n_refused_projections = project_vertices(*potentials, found.topology, found.films);
+    report.n_refused_projections =
+        project_vertices(grid.communicator(), *potentials, found.topology, found.films);
     report.times.lap("projection");
     if (!parameters.conserve_volumes || round == n_volume_rounds) break;
     raise_to_volumes(*potentials, found.films, phases, largest_volume_step * h);

@@ -52,7 +52,8 @@ class Collapser {
         star_(vertex_stars(work.mesh)),
         dead_triangle_(work.mesh.n_triangles(), 0),
         dead_vertex_(work.mesh.n_vertices(), 0),
-        normal_(work.mesh.n_vertices()) {
+        normal_(work.mesh.n_vertices()),
+        mark_(work.mesh.n_vertices(), 0) {
     for (int v = 0; v < mesh_.n_vertices(); ++v) kind_.push_back(work_.kind(v));
   }
 
@@ -89,6 +90,7 @@ class Collapser {
   bool try_collapse(int v, int w);
   bool is_allowed_by_kind(const Candidate& c, int n_shared) const;
   bool keeps_topology(const Candidate& c, int n_shared);
+  bool is_opposite_to(const Candidate& c, int s) const;
   bool keeps_shape(const Candidate& c, int triangle) const;
   bool keeps_orientation(const Candidate& c, int triangle, const Corners& before, const Corners& after) const;
   bool keeps_lengths(const Candidate& c, int triangle, const Corners& after) const;
@@ -101,8 +103,9 @@ class Collapser {
   std::vector<VertexKind> kind_;
   std::vector<std::vector<int>> star_;
   std::vector<char> dead_triangle_, dead_vertex_;
-  std::vector<Vec3> normal_;          // of film vertices, at the start of the pass
-  std::vector<int> ring_v_, ring_w_;  // scratch of keeps_topology
+  std::vector<Vec3> normal_;  // of film vertices, at the start of the pass
+  std::vector<int> mark_;     // of vertices: scratch of keeps_topology
+  int next_mark_ = 1;
 };
 
 std::vector<ShortEdge> Collapser::begin_pass() {
@@ -158,8 +161,7 @@ int Collapser::collapse_listed(const std::vector<ShortEdge>& edges) {
     const ShortEdge& e = edges[n];
     if (dead_vertex_[e.low] || dead_vertex_[e.high]) continue;
     int v = e.low, w = e.high;  // v goes: the one of lower precedence, or else a needless one
-    if (kind(w) < kind(v) || (kind(w) == kind(v) && hangs_in_three_triangles(w)))
-      std::swap(v, w);
+    if (kind(w) < kind(v) || (kind(w) == kind(v) && hangs_in_three_triangles(w))) std::swap(v, w);
     if (try_collapse(v, w) || (kind(v) == kind(w) && try_collapse(w, v))) ++n_collapsed;
   }
   return n_collapsed;
@@ -190,18 +192,19 @@ bool Collapser::is_allowed_by_kind(const Candidate& c, int n_shared) const {
 /// The link condition: the neighbours that v and w share are the third corners of the triangles they share,
 /// and no edge is opposite to both.
 bool Collapser::keeps_topology(const Candidate& c, int n_shared) {
-  const auto collect_ring = [&](int centre, std::vector<int>& ring) {
-    ring.clear();
+  const int of_v = next_mark_, of_both = next_mark_ + 1;
+  next_mark_ += 2;
+  const auto for_ring = [&](int centre, auto&& body) {
     for (int t : star_[centre])
       for (int x : mesh_.triangle[t].vertex)
-        if (x != c.v && x != c.w) ring.push_back(x);
-    std::sort(ring.begin(), ring.end());
-    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+        if (x != c.v && x != c.w) body(x);
   };
-  collect_ring(c.v, ring_v_);
-  collect_ring(c.w, ring_w_);
-  const auto n_common = std::count_if(ring_v_.begin(), ring_v_.end(), [&](int x) {
-    return std::binary_search(ring_w_.begin(), ring_w_.end(), x);
+  for_ring(c.v, [&](int x) { mark_[x] = of_v; });
+  int n_common = 0;
+  for_ring(c.w, [&](int x) {
+    if (mark_[x] != of_v) return;
+    mark_[x] = of_both;
+    ++n_common;
   });
   if (n_common != n_shared) return false;
 
@@ -209,19 +212,27 @@ bool Collapser::keeps_topology(const Candidate& c, int n_shared) {
     return std::count_if(star_[a].begin(), star_[a].end(), [&](int t) { return has(t, b); });
   };
   for (int t : star_[c.v]) {
-    if (has(t, c.w)) {
-      // A film one triangle wide between two borders: they would become one edge of four films.
-      for (int x : mesh_.triangle[t].vertex)
-        if (x != c.v && x != c.w && n_films(c.v, x) > 2 && n_films(c.w, x) > 2) return false;
-      continue;
-    }
-    for (int s : star_[c.w]) {
-      int n_same = 0;
-      for (int x : mesh_.triangle[t].vertex) n_same += x != c.v && has(s, x);
-      if (n_same == 2) return false;
-    }
+    if (!has(t, c.w)) continue;
+    // A film one triangle wide between two borders: they would become one edge of four films.
+    for (int x : mesh_.triangle[t].vertex)
+      if (x != c.v && x != c.w && n_films(c.v, x) > 2 && n_films(c.w, x) > 2) return false;
+  }
+  for (int s : star_[c.w]) {
+    int n_marked = 0;
+    for (int x : mesh_.triangle[s].vertex) n_marked += x != c.v && x != c.w && mark_[x] == of_both;
+    if (n_marked == 2 && is_opposite_to(c, s)) return false;
   }
   return true;
+}
+
+/// Whether the edge of triangle s opposite to w is opposite to v too, in a triangle without w.
+bool Collapser::is_opposite_to(const Candidate& c, int s) const {
+  return std::any_of(star_[c.v].begin(), star_[c.v].end(), [&](int t) {
+    if (has(t, c.w)) return false;
+    int n_same = 0;
+    for (int x : mesh_.triangle[t].vertex) n_same += x != c.v && has(s, x);
+    return n_same == 2;
+  });
 }
 
 /// Whether a triangle of v stays a decent part of its film when v moves to w.

@@ -38,7 +38,8 @@ void for_each_bin(const BinRange& range, const std::array<int, 3>& n_bins, Visit
       for (int i = range.first[0]; i <= range.last[0]; ++i) visit((k * n_bins[1] + j) * n_bins[0] + i);
 }
 
-/// Bins at exactly `ring` steps (in the largest of the three directions) from the centre: visit(bin, i, j, k).
+/// Bins at exactly `ring` steps (in the largest of the three directions) from the centre: visit(bin, i, j,
+/// k).
 template <class Visit>
 void for_each_bin_of_ring(const std::array<int, 3>& centre, int ring, const std::array<int, 3>& n_bins,
                           Visit visit) {
