@@ -27,12 +27,6 @@ class FlatMap {
     return slot.number;
   }
 
-  /// Forgets all keys and keeps the memory.
-  void clear() {
-    slots_.assign(slots_.size(), Slot{});
-    n_keys_ = 0;
-  }
-
  private:
   struct Slot {
     Key key{};

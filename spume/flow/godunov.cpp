@@ -75,6 +75,7 @@ struct Godunov::Tile {
     stride[2] = stride[1] * (ny + 2);
     for (auto* arrays : {&slope, &normal_slope, &wind, &transverse, &face})
       for (auto& values : *arrays) values.assign(static_cast<std::size_t>(stride[2]) * (nz + 2), 0.0);
+    for (auto& row : difference) row.assign(stride[1] + 2, 0.0);
   }
 
   std::ptrdiff_t offset(int i, int j, int k) const {
@@ -99,7 +100,7 @@ struct Godunov::Tile {
             transverse[(axis + 2) % 3].data(), 0.5 * known.dt};
   }
 
-  void find_slopes(const Known& known, int component, int axis, std::vector<double>& values) const;
+  void find_slopes(const Known& known, int component, int axis, std::vector<double>& values);
   void trace_winds(const Known& known);
   void find_transverse_terms(const Known& known, int component, int axis);
 
@@ -107,6 +108,7 @@ struct Godunov::Tile {
   CellRange cells;
   std::array<std::ptrdiff_t, 3> stride;
   using Arrays = std::array<std::vector<double>, 3>;  ///< one an axis
+  Arrays difference;    ///< of three rows: of the cells across the axis of a slope [m/s]
   Arrays slope;         ///< h ∂u_c/∂x_axis of the component at work, but for the axis c [m/s]
   Arrays normal_slope;  ///< h ∂u_axis/∂x_axis [m/s]
   Arrays wind;          ///< on faces across the axis [m/s]
@@ -114,12 +116,33 @@ struct Godunov::Tile {
   Arrays face;          ///< values or fluxes on faces across the axis
 };
 
-void Godunov::Tile::find_slopes(const Known& known, int component, int axis,
-                                std::vector<double>& values) const {
+void Godunov::Tile::find_slopes(const Known& known, int component, int axis, std::vector<double>& values) {
+  const CellRange range = cells.grown(1);
+  const std::ptrdiff_t n = range.upper.i - range.lower.i, s = block.stride(axis);
   const double* u = known.velocity[component];
-  for_each_row(cells.grown(1), [&](std::ptrdiff_t c, std::ptrdiff_t t, std::ptrdiff_t n) {
-    slopes_of_row(n, block.stride(axis), known.limit, u + c, values.data() + t);
-  });
+  if (axis == 0) {
+    for_each_row(range, [&](std::ptrdiff_t c, std::ptrdiff_t t, std::ptrdiff_t) {
+      double* delta = difference[0].data();
+      central_differences(n + 2, s, known.limit, u + c - 1, delta);
+      slopes_from_differences(n, s, known.limit, u + c, delta, delta + 2, values.data() + t);
+    });
+    return;
+  }
+  // Rows one after another along the axis, each with the differences of the two before it.
+  const int other = 3 - axis;
+  for (int m = range.lower[other]; m < range.upper[other]; ++m)
+    for (int l = range.lower[axis] - 1; l <= range.upper[axis]; ++l) {
+      Index3 cell{range.lower.i, 0, 0};
+      cell[other] = m;
+      cell[axis] = l;
+      const std::ptrdiff_t c = block.offset(cell.i, cell.j, cell.k);
+      const auto delta = [&](int row) { return difference[(row + 3) % 3].data(); };
+      central_differences(n, s, known.limit, u + c, delta(l));
+      if (l < range.lower[axis] + 1) continue;
+      cell[axis] = l - 1;
+      slopes_from_differences(n, s, known.limit, u + c - s, delta(l - 2), delta(l),
+                              values.data() + offset(cell.i, cell.j, cell.k));
+    }
 }
 
 /// The wind for the transverse terms: normal velocities traced along their own axis, on the faces of the tile

@@ -23,7 +23,7 @@ struct NavierStokes::Implementation {
         projection(on, elliptic),
         rate(on),
         velocity(ghosted_vector(rate)),
-        force(velocity),
+        force(velocity[0]),
         pressure(velocity[0]),
         acceleration(block_vector(BlockLayout(on))) {}
 
@@ -35,7 +35,8 @@ struct NavierStokes::Implementation {
   Godunov godunov;
   Projection projection;
   grid::VectorField rate;  ///< (u* − uⁿ)/Δt, then (uⁿ⁺¹ − uⁿ)/Δt [m/s²]
-  GhostedVector velocity, force;
+  GhostedVector velocity;
+  GhostedField force;  ///< one component of it
   GhostedField pressure;
   BlockVector acceleration;
   StageTimes times;
@@ -53,12 +54,12 @@ NavierStokes::~NavierStokes() = default;
 ///   ρ ((u* − uⁿ)/Δt + (u·∇u)^{n+½}) = −∇p^{n−½} + μ ½(∇²u* + ∇²uⁿ) + st
 void NavierStokes::Implementation::intermediate_rate(const state::GasFlow& flow,
                                                      const grid::VectorField& body_force, double dt) {
+  pressure.update(flow.pressure);
   for (int c = 0; c < 3; ++c) {
     velocity[c].update(flow.velocity[c]);
-    force[c].update(body_force[c]);
+    force.update(body_force[c]);
+    explicit_acceleration(grid, gas, c, velocity[c], pressure, force, acceleration[c]);
   }
-  pressure.update(flow.pressure);
-  explicit_acceleration(grid, gas, velocity, pressure, force, acceleration);
   times.lap("explicit terms");
 
   godunov.predict_normals(velocity, acceleration, max_speed(flow), dt);

@@ -93,7 +93,6 @@ class Contourer {
     CellBox cubes = whole_;
     for (int d = 0; d < 3; ++d) --cubes.end[d];
     for (int k = cubes.begin.k; k < cubes.end.k; ++k) {
-      vertex_of_[(k + 1) % 2].clear();
       for (int j = cubes.begin.j; j < cubes.end.j; ++j) {
         find_mixed_cubes(cubes.end.i, j, k);
         for (int i = cubes.begin.i; i < cubes.end.i; ++i)
@@ -144,20 +143,26 @@ class Contourer {
     for (const PhaseField* field : bins_.at(i, j, k)) {
       if (!field->cells.contains(i, j, k) || !field->cells.contains(i + 1, j + 1, k + 1)) continue;
       if (n_cube_ == max_candidates) throw NumericalError("more than 24 phases compete for one cell");
-      auto& value = cube_value_[n_cube_];
-      for (int c = 0; c < 8; ++c)
-        value[c] = field->value[field->cells.offset(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2))];
+      const double* v = &field->value[field->cells.offset(i, j, k)];
+      const std::ptrdiff_t y = field->cells.stride_y(), z = field->cells.stride_z();
+      cube_value_[n_cube_] = {v[0], v[1], v[y], v[y + 1], v[z], v[z + 1], v[z + y], v[z + y + 1]};
       cube_phase_[n_cube_++] = field->phase;
     }
-    std::array<bool, max_candidates> wins{}, beaten{};
+    std::array<int, 8> winners;  // their places among the candidates
+    int n_winners = 0;
     for (int a = 0; a < n_cube_; ++a)
-      for (int c = 0; c < 8; ++c) wins[a] = wins[a] || cube_winner_[c] == cube_phase_[a];
-    for (int a = 0; a < n_cube_; ++a)
-      for (int w = 0; w < n_cube_ && !beaten[a]; ++w) {
-        if (w == a || !wins[w]) continue;
-        beaten[a] = true;
-        for (int c = 0; c < 8; ++c) beaten[a] = beaten[a] && cube_value_[a][c] < cube_value_[w][c];
+      if (std::find(cube_winner_.begin(), cube_winner_.end(), cube_phase_[a]) != cube_winner_.end())
+        winners[n_winners++] = a;
+    const auto is_beaten = [&](int a) {
+      for (int w = 0; w < n_winners; ++w) {
+        int n_below = 0;
+        for (int c = 0; c < 8; ++c) n_below += cube_value_[a][c] < cube_value_[winners[w]][c];
+        if (n_below == 8) return true;
       }
+      return false;
+    };
+    std::array<bool, max_candidates> beaten;
+    for (int a = 0; a < n_cube_; ++a) beaten[a] = is_beaten(a);
     int n = 0;
     for (int a = 0; a < n_cube_; ++a) {
       if (beaten[a]) continue;
@@ -170,9 +175,11 @@ class Contourer {
   /// The same for the four corners of a tetrahedron.
   void find_tetrahedron_candidates() {
     n_ = 0;
+    // Of two, each wins somewhere here: a tetrahedron of one winner is not looked at.
+    const bool both = n_cube_ == 2;
     for (int a = 0; a < n_cube_; ++a) {
       bool beaten = false;
-      for (int w = 0; w < n_cube_ && !beaten; ++w) {
+      for (int w = 0; w < n_cube_ && !beaten && !both; ++w) {
         if (w == a) continue;
         bool wins = false, below = true;
         for (int m : mask_) {
@@ -314,8 +321,7 @@ class Contourer {
         chain |= static_cast<std::uint64_t>(mask_[c] ^ mask_[lowest]) << (3 * n_steps++);
     VertexKey key{lattice_point(cube_.i, cube_.j, cube_.k, mask_[lowest]) << 9 | chain, {-1, -1, -1, -1}};
     std::copy(phases.begin(), phases.end(), key.phases.begin());
-    auto& vertex_of = vertex_of_[(cube_.k + (mask_[lowest] >> 2)) % 2];
-    const int number = vertex_of.find_or_insert(key, films_.n_vertices());
+    const int number = vertex_of_.find_or_insert(key, films_.n_vertices());
     if (number == films_.n_vertices()) films_.position.push_back(position(polygon.corner[corner]));
     return number;
   }
@@ -333,10 +339,7 @@ class Contourer {
   FieldBins bins_;
   CellBox whole_;
   mesh::FilmMesh films_;
-  /// Of the vertices whose lowest lattice point is in an even layer, and in an odd one: only those of the two
-  /// layers that the cubes at work lie between, which stay in cache.
-  std::array<FlatMap<VertexKey, VertexKeyHash>, 2> vertex_of_;
-
+  FlatMap<VertexKey, VertexKeyHash> vertex_of_;
   std::vector<int> mixed_;  ///< of the row: 0 where all corners of a cube have one winner
 
   // of the cube

@@ -253,15 +253,16 @@ std::vector<std::vector<double>> smoothed_indicators(const grid::Grid& grid, con
   expects(midpoints.size() == films.triangle.size(), "one set of midpoints a triangle");
   std::vector<grid::Field> field(colours.n_colours, grid::Field(grid));
   const std::vector<double> volume = spread_films(grid, films, midpoints, colours, field);
-  std::vector<std::vector<double>> indicators;
+  std::vector<std::vector<double>> indicators(colours.n_colours);
   if (field.empty()) return indicators;
   const grid::SpectralFilter filter = indicator_filter(grid, variance);
   const Vec3 size = grid.box().size();
-  for (int c = 0; c < colours.n_colours; ++c) {
+  for (int c = colours.n_colours - 1; c >= 0; --c) {
     filter.apply(field[c], field[c]);
-    indicators.push_back(grid::gather(field[c]));
+    indicators[c] = grid::gather(field[c]);
+    field.pop_back();  // its memory serves the next
     const double mean = volume[c] / (size.x * size.y * size.z);
-    for (double& value : indicators.back()) value += mean;
+    for (double& value : indicators[c]) value += mean;
   }
   return indicators;
 }
