@@ -1,15 +1,25 @@
-// Seconds a step of the rearrangement, the share of each part, and the ratio to one Poisson solve of the same
-// grid timed in the same run: machines differ and drift, ratios less so.  Usage: bench_rearrangement [cells a
-// side = 64] [steps = 60]
-#include <chrono>
-#include <cstdio>
-#include <cstdlib>
-#include <map>
-#include <string>
+// One step of the rearrangement of a cluster of bubbles: the share of each stage, and the ratio to one
+// Poisson solve by FFTW of the same grid, timed between the steps of the same run: machines differ and drift,
+// ratios less so. The foam starts as overlapping spheres, far from equilibrium, and is reconstructed by the
+// rule of the program. Usage: bench_rearrangement [--cells 64 128] [--bubbles 1 4 27 100] [--steps 24]
+// [--warm-up 8]
+#include <sys/resource.h>
 
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <list>
+#include <string>
+#include <vector>
+
+#include "bench/poisson_reference.hpp"
+#include "spume/base/stage_times.hpp"
 #include "spume/flow/navier_stokes.hpp"
 #include "spume/flow/surface_tension.hpp"
 #include "spume/interface/carry.hpp"
+#include "spume/mesh/measure.hpp"
+#include "spume/mesh/volume_constraint.hpp"
 #include "spume/parallel/session.hpp"
 #include "spume/simulation/film_update.hpp"
 #include "spume/simulation/initial_foam.hpp"
@@ -18,108 +28,205 @@ namespace {
 
 using namespace spume;
 
-double now() {
+double wall() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-class Stopwatch {
- public:
-  template <class Work>
-  void time(const std::string& part, Work&& work) {
-    const double start = now();
-    work();
-    seconds_[part] += now() - start;
-  }
-  const std::map<std::string, double>& seconds() const { return seconds_; }
-
- private:
-  std::map<std::string, double> seconds_;
-};
-
+/// A cluster that fills most of the box whatever the number of bubbles; for 100 bubbles the mean radius is 5
+/// cells of 64.
 simulation::Case cluster_case(int cells, int bubbles) {
   simulation::Case run_case;
-  const double half = bubbles > 4 ? 8e-3 : 6e-3;
+  const double half = 8e-3;
   run_case.box = {{-half, -half, -half}, {half, half, half}, {cells, cells, cells}};
   run_case.materials.gas = {1.2, 1.8e-5};
   run_case.materials.film.surface_tension = 0.03;
-  run_case.foam.cluster = simulation::ClusterShape{
-      .count = bubbles, .mean_diameter = 3e-3, .spread = 0.15, .seed = 1, .center = {}};
+  const double diameter = 0.8 * (2 * half) / (std::cbrt(bubbles) + 0.5);
+  if (bubbles == 1) {
+    const double r = 0.5 * diameter;
+    run_case.foam.bubble = {{{0, 0, 0}, {1.2 * r, r, 0.9 * r}}};
+  } else {
+    run_case.foam.cluster = simulation::ClusterShape{
+        .count = bubbles, .mean_diameter = diameter, .spread = 0.15, .seed = 1, .center = {}};
+  }
   return run_case;
 }
 
-/// The fastest of several Poisson solves by one transform pair [s].
-double poisson_seconds(const grid::Grid& grid) {
-  grid::Field f(grid), x(grid);
-  for (std::size_t c = 0; c < f.values().size(); ++c) f.values()[c] = static_cast<double>(c * 7919 % 1013);
-  grid::EllipticSolver solver(grid, grid::EllipticBackend::Trigonometric);
-  solver.solve(0, 1, f, x);
-  double fastest = 1e300;
-  for (int n = 0; n < 11; ++n) {
-    const double start = now();
-    solver.solve(0, 1, f, x);
-    fastest = std::min(fastest, now() - start);
-  }
-  return fastest;
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
 }
 
-void bench(int cells, int bubbles, int steps) {
-  const simulation::Case run_case = cluster_case(cells, bubbles);
-  const grid::Grid grid(parallel::Communicator::world(), run_case.box);
-  state::Foam foam(grid);
-  std::vector<state::Event> events;
-  simulation::make_initial_foam(run_case, foam, events);
-
-  const double poisson = poisson_seconds(grid);
-  const double h = grid.h();
-  const double dt = flow::capillary_limit(h, run_case.materials).dt;
-  const grid::KernelCoupling kernel;
-  flow::NavierStokes gas(grid, run_case.materials.gas, run_case.flow);
-  grid::VectorField force(grid);
-  mesh::Topology topology = mesh::build_topology(foam.films);
-  std::vector<Vec3> reference = foam.films.position;
-  int reconstructions = 0;
-  Stopwatch watch;
-  for (int step = 0; step < steps; ++step) {
-    flow::FilmForces forces;
-    watch.time("film forces", [&] {
-      forces = flow::film_forces(foam.films, topology, foam.phases.count(),
-                                 run_case.materials.film.surface_tension);
-    });
-    watch.time("spreading", [&] { flow::spread_film_forces(foam.films, forces, kernel, force); });
-    watch.time("gas", [&] { gas.step(foam.gas, force, dt); });
-    watch.time("moving films", [&] { interface::carry(foam.films, foam.gas.velocity, kernel, dt); });
-    watch.time("young films", [&] {
-      transport::fill_young_films(foam.films, topology, foam.liquid, h, run_case.transport);
-    });
-    double motion = 0;
-    for (std::size_t v = 0; v < reference.size(); ++v)
-      motion = std::max(motion, norm(foam.films.position[v] - reference[v]));
-    if (motion > h || step == steps - 1) {
-      watch.time("reconstruction",
-                 [&] { topology = simulation::reconstruct_films(grid, run_case, foam).topology; });
-      reference = foam.films.position;
-      ++reconstructions;
-    }
+/// A foam that rearranges as the program does it.
+class Rearrangement {
+ public:
+  explicit Rearrangement(const simulation::Case& run_case)
+      : case_(run_case),
+        grid_(parallel::Communicator::world(), run_case.box),
+        foam_(grid_),
+        gas_(grid_, run_case.materials.gas, run_case.flow),
+        spreader_(grid_),
+        force_(grid_),
+        film_velocity_(grid_) {
+    std::vector<state::Event> events;
+    simulation::make_initial_foam(case_, foam_, events);
+    topology_ = mesh::build_topology(foam_.films);
+    reference_ = foam_.films.position;
   }
 
-  double total = 0;
-  for (const auto& [part, seconds] : watch.seconds()) total += seconds;
-  const double n_cells = static_cast<double>(grid.total_size());
-  std::printf("\n%d^3 cells, %d bubbles, %d triangles, %d steps, %d reconstructions (%.3f s each)\n", cells,
-              bubbles, foam.films.n_triangles(), steps, reconstructions,
-              watch.seconds().at("reconstruction") / reconstructions);
-  std::printf("  one Poisson solve  %9.5f s\n", poisson);
-  std::printf("  a step             %9.5f s = %.0f Poisson solves; %.3g cells*steps/s\n", total / steps,
-              total / steps / poisson, n_cells * steps / total);
-  for (const auto& [part, seconds] : watch.seconds())
-    std::printf("    %-16s %9.5f s  %5.1f %%\n", part.c_str(), seconds / steps, 100 * seconds / total);
+  void step() {
+    const auto& materials = case_.materials;
+    const double h = grid_.h();
+    times_.restart();
+    const auto forces =
+        flow::film_forces(foam_.films, topology_, foam_.phases.count(), materials.film.surface_tension);
+    times_.lap("film forces");
+    spreader_.spread(foam_.films, forces, kernel_, force_);
+    times_.lap("spreading");
+    const double dt = std::min(flow::capillary_limit(h, materials, case_.rearrangement.capillary_factor).dt,
+                               gas_.advection_limit(foam_.gas, case_.rearrangement.cfl).dt);
+    times_.lap("time step");
+    gas_.step(foam_.gas, force_, dt);
+    times_.lap("gas");
+    gas_.film_velocity(foam_.gas, film_velocity_);
+    interface::carry(foam_.films, film_velocity_, kernel_, dt);
+    times_.lap("moving films");
+    mesh::restore_volumes(foam_.films, foam_.phases.target_volume, 1, 0.1 * h);
+    times_.lap("volumes");
+    ++steps_since_reconstruction_;
+    if (needs_reconstruction()) reconstruct();
+    times_.restart();
+    transport::fill_young_films(foam_.films, topology_, foam_.liquid, h, case_.transport);
+    times_.lap("young films");
+    energy_ = flow::kinetic_energy(foam_.gas, materials.gas.density) +
+              2 * materials.film.surface_tension * mesh::film_area(foam_.films);
+    speed_ = flow::max_speed(foam_.gas);
+    times_.lap("measures");
+  }
+
+  void forget_times() {
+    times_ = {};
+    reconstruction_times_ = {};
+    gas_before_ = gas_.times();
+    n_reconstructions_ = 0;
+  }
+  /// Stages of all steps since forget_times(), in place of "gas" its own stages.
+  StageTimes times() const {
+    StageTimes all;
+    for (const auto& [stage, seconds] : times_.seconds())
+      if (stage != "gas") all.add(stage, seconds);
+    StageTimes gas = gas_.times();
+    for (const auto& [stage, seconds] : gas_before_.seconds()) gas.add(stage, -seconds);
+    for (const auto& [stage, seconds] : gas.seconds()) all.add(name("gas: ", stage), seconds);
+    for (const auto& [stage, seconds] : reconstruction_times_.seconds())
+      all.add(name("reconstruction: ", stage), seconds);
+    return all;
+  }
+  int n_reconstructions() const { return n_reconstructions_; }
+  int n_triangles() const { return foam_.films.n_triangles(); }
+  double energy() const { return energy_; }
+  double speed() const { return speed_; }
+
+ private:
+  bool needs_reconstruction() const {
+    double motion = 0;
+    for (std::size_t v = 0; v < reference_.size(); ++v)
+      motion = std::max(motion, norm(foam_.films.position[v] - reference_[v]));
+    motion /= grid_.h();
+    return motion > case_.rearrangement.reconstruction_displacement ||
+           (steps_since_reconstruction_ >= case_.rearrangement.reconstruction_interval && motion > 0.25);
+  }
+  void reconstruct() {
+    const double start = processor_time();
+    simulation::FilmUpdate update = simulation::reconstruct_films(grid_, case_, foam_);
+    double inside = 0;
+    for (const auto& [stage, seconds] : update.reconstruction.times.seconds()) {
+      reconstruction_times_.add(stage, seconds);
+      inside += seconds;
+    }
+    reconstruction_times_.add("liquid transfer", processor_time() - start - inside);
+    topology_ = std::move(update.topology);
+    reference_ = foam_.films.position;
+    steps_since_reconstruction_ = 0;
+    ++n_reconstructions_;
+  }
+  std::string_view name(const char* group, std::string_view stage) const {
+    return names_.emplace_back(group + std::string(stage));
+  }
+
+  simulation::Case case_;
+  grid::Grid grid_;
+  state::Foam foam_;
+  flow::NavierStokes gas_;
+  grid::KernelCoupling kernel_;
+  flow::ForceSpreader spreader_;
+  grid::VectorField force_, film_velocity_;
+  mesh::Topology topology_;
+  std::vector<Vec3> reference_;
+  int steps_since_reconstruction_ = 0, n_reconstructions_ = 0;
+  double energy_ = 0, speed_ = 0;
+  StageTimes times_, reconstruction_times_, gas_before_;
+  mutable std::list<std::string> names_;  // that StageTimes refer to
+};
+
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return parallel::Communicator::world().sum(1024.0 * static_cast<double>(usage.ru_maxrss));  // [bytes]
+}
+
+void run(int cells, int bubbles, int n_warm_up, int n_steps) {
+  const double memory_before = peak_memory();
+  Rearrangement foam(cluster_case(cells, bubbles));
+  for (int n = 0; n < n_warm_up; ++n) foam.step();
+  const double memory = peak_memory();
+  bench::PoissonReference reference(cells);
+  foam.forget_times();
+  std::vector<double> poisson;
+  double total = 0, wall_time = 0;
+  for (int n = 0; n < n_steps; ++n) {
+    double start = processor_time();
+    reference.solve();
+    poisson.push_back(processor_time() - start);
+    start = processor_time();
+    const double wall_start = wall();
+    foam.step();
+    total += processor_time() - start;
+    wall_time += wall() - wall_start;
+  }
+
+  const auto& world = parallel::Communicator::world();
+  if (!world.is_root()) return;
+  const double n_cells = std::pow(static_cast<double>(cells), 3), unit = median(poisson);
+  const double step = total / n_steps;
+  std::printf("\n%d^3 cells, %d bubbles, %d triangles, %d ranks; %d steps, %d reconstructions\n", cells,
+              bubbles, foam.n_triangles(), world.size(), n_steps, foam.n_reconstructions());
+  std::printf("  one Poisson solve %9.5f s (median; best %.5f)\n", unit,
+              *std::min_element(poisson.begin(), poisson.end()));
+  std::printf("  a step            %9.5f s = %.1f Poisson solves; %.3g cells*steps/s/core; wall %.5f s\n",
+              step, step / unit, n_cells / step / world.size(), wall_time / n_steps);
+  if (memory > memory_before)
+    std::printf("  peak memory       %9.0f bytes a cell, the program's own %.0f MB included\n",
+                memory / n_cells, memory_before / 1e6);
+  std::printf("  energy %.15g J, speed %.15g m/s\n", foam.energy(), foam.speed());
+  const StageTimes times = foam.times();
+  for (const auto& [part, seconds] : times.seconds())
+    std::printf("    %-32.*s %9.5f s %6.2f Poisson %5.1f %%\n", static_cast<int>(part.size()), part.data(),
+                seconds / n_steps, seconds / n_steps / unit, 100 * seconds / total);
+  std::fflush(stdout);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int cells = argc > 1 ? std::atoi(argv[1]) : 64;
-  const int steps = argc > 2 ? std::atoi(argv[2]) : 60;
-  parallel::Session session(argc, argv);
-  for (int bubbles : {4, 12}) bench(cells, bubbles, steps);
+  const parallel::Session session(argc, argv);
+  CLI::App program("Cost of one step of the rearrangement", "bench_rearrangement");
+  std::vector<int> cells{64, 128}, bubbles{1, 4, 27, 100};
+  int n_steps = 24, n_warm_up = 8;
+  program.add_option("--cells", cells, "cells along each side");
+  program.add_option("--bubbles", bubbles, "bubbles of the cluster");
+  program.add_option("--steps", n_steps, "steps that are timed");
+  program.add_option("--warm-up", n_warm_up, "steps before those");
+  CLI11_PARSE(program, argc, argv);
+  for (const int n : cells)
+    for (const int b : bubbles) run(n, b, n_warm_up, n_steps);
 }

@@ -45,6 +45,11 @@ class BlockLayout {
   CellRange owned_faces(int axis) const { return owned().grown(axis, 0, 1); }
   std::ptrdiff_t stride(int axis) const { return stride_[axis]; }
   std::ptrdiff_t offset(int i, int j, int k) const { return k * stride_[2] + j * stride_[1] + i; }
+  /// Place in the values of a Field of the owned cell with this offset.
+  std::ptrdiff_t place(std::ptrdiff_t offset) const {
+    const std::ptrdiff_t k = offset / stride_[2], j = offset % stride_[2] / stride_[1];
+    return (k * cells_.j + j) * cells_.i + offset % stride_[1];
+  }
   std::size_t size() const { return size_; }
   /// Place of cell (0, 0, 0) in an array of size().
   std::ptrdiff_t origin() const { return offset(margin, margin, margin); }

@@ -2,29 +2,25 @@
 
 namespace spume::flow {
 
-void explicit_acceleration(const grid::Grid& grid, const state::Gas& gas, const GhostedVector& u,
-                           const GhostedField& pressure, const GhostedVector& body_force,
-                           BlockVector& acceleration) {
+void explicit_acceleration(const grid::Grid& grid, const state::Gas& gas, int component,
+                           const GhostedField& u, const GhostedField& pressure,
+                           const GhostedField& body_force, BlockArray& acceleration) {
   const BlockLayout layout(grid);
   const double h = grid.h();
   const double nu = gas.viscosity / gas.density;  // ν [m²/s]
   const double viscous = nu / (h * h);
   const double per_density = 1 / gas.density;
   const double gradient = 1 / (2 * h * gas.density);
-  const std::ptrdiff_t sy = layout.stride(1), sz = layout.stride(2);
-  const double* p = first(pressure, grid);
-  for (int component = 0; component < 3; ++component) {
-    const std::ptrdiff_t s = layout.stride(component);
-    const double *v = first(u[component], grid), *f = first(body_force[component], grid);
-    double* a = acceleration[component].first();
-    for_each_row(layout, layout.owned().grown(1), [=](std::ptrdiff_t row, std::ptrdiff_t n) {
+  const std::ptrdiff_t s = layout.stride(component), sy = layout.stride(1), sz = layout.stride(2);
+  const double *v = first(u, grid), *f = first(body_force, grid), *p = first(pressure, grid);
+  double* a = acceleration.first();
+  for_each_row(layout, layout.owned().grown(1), [=](std::ptrdiff_t row, std::ptrdiff_t n) {
 #pragma GCC ivdep
-      for (std::ptrdiff_t c = row; c < row + n; ++c) {
-        const double neighbours = v[c - 1] + v[c + 1] + v[c - sy] + v[c + sy] + v[c - sz] + v[c + sz];
-        a[c] = viscous * (neighbours - 6 * v[c]) + per_density * f[c] - gradient * (p[c + s] - p[c - s]);
-      }
-    });
-  }
+    for (std::ptrdiff_t c = row; c < row + n; ++c) {
+      const double neighbours = v[c - 1] + v[c + 1] + v[c - sy] + v[c + sy] + v[c - sz] + v[c + sz];
+      a[c] = viscous * (neighbours - 6 * v[c]) + per_density * f[c] - gradient * (p[c + s] - p[c - s]);
+    }
+  });
 }
 
 void diffuse_implicitly(grid::EllipticSolver& elliptic, const state::Gas& gas, double dt,

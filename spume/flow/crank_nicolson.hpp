@@ -8,10 +8,11 @@ namespace spume::flow {
 
 /// What accelerates the gas besides its own advection, at the old time level:
 ///   a = (f − ∇p^{n−½})/ρ + ν ∇²uⁿ [m/s²],
-/// ∇p by centred differences, ∇² the seven-point Laplacian. Of the owned cells and one layer around them.
-void explicit_acceleration(const grid::Grid& grid, const state::Gas& gas, const GhostedVector& u,
-                           const GhostedField& pressure, const GhostedVector& body_force,
-                           BlockVector& acceleration);
+/// ∇p by centred differences, ∇² the seven-point Laplacian. One component, of the owned cells and one layer
+/// around them; `u` and `body_force` are of that component.
+void explicit_acceleration(const grid::Grid& grid, const state::Gas& gas, int component,
+                           const GhostedField& u, const GhostedField& pressure,
+                           const GhostedField& body_force, BlockArray& acceleration);
 
 /// The implicit half of the Crank–Nicolson scheme. With the viscous term of uⁿ already in the rate r on
 /// entry,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "spume/flow/block.hpp"
 
 namespace spume::flow {
@@ -12,14 +14,19 @@ namespace spume::flow {
 /// transverse derivatives use face values traced along e alone, without the corner coupling of a fully
 /// upwinded scheme: stable for CFL numbers up to ½.
 ///
-/// A step calls predict_normals(), makes face_velocity() free of divergence, and calls advect().
+/// A step calls predict_normals(), makes face_velocity() free of divergence, and calls advect() or
+/// accelerate().
+///
+/// Both halves of the work go through the cells tile by tile, the work values of a tile staying in cache;
+/// slopes and transverse terms are computed in either, which costs less than to keep them for all cells.
 class Godunov {
  public:
   Godunov(const grid::Grid& grid, bool limit_slopes);
+  ~Godunov();
 
   /// Predicts the velocities normal to faces at tⁿ + ½Δt into face_velocity(); zero at walls.
   /// `acceleration` [m/s²]: of the owned cells and one layer around them. `speed`: max |u| [m/s] over all
-  /// ranks, against which a wind is called zero. Keeps slopes and transverse terms for advect().
+  /// ranks, against which a wind is called zero.
   void predict_normals(const GhostedVector& u, const BlockVector& acceleration, double speed, double dt);
 
   /// u_MAC [m/s] of the faces of the owned cells.
@@ -31,24 +38,26 @@ class Godunov {
   void advect(const GhostedVector& u, const BlockVector& acceleration, double dt,
               grid::VectorField& advection);
 
+  /// The rate of change by acceleration and advection, a − (u·∇u)^{n+½} [m/s²], otherwise as advect().
+  void accelerate(const GhostedVector& u, const BlockVector& acceleration, double dt,
+                  grid::VectorField& rate);
+
  private:
-  struct NormalTrace;
-  struct FaceStates;
-  NormalTrace normal_trace(const GhostedVector& u, int component, int axis, double dt) const;
-  FaceStates face_states(const GhostedVector& u, const BlockVector& acceleration, int component, int axis,
-                         double dt) const;
-  void trace_normals(const GhostedVector& u, double dt);
-  void transverse_terms(const GhostedVector& u, double dt);
+  struct Tile;
+  struct Known;
+  Known known(const GhostedVector& u, const BlockVector& acceleration, double dt) const;
+  template <class Body>
+  void for_each_tile(Body&& body);
+  template <class Store>
+  void advect_each_row(const GhostedVector& u, const BlockVector& acceleration, double dt, Store&& store);
   void close_walls();
 
   const grid::Grid& grid_;
   BlockLayout layout_;
   bool limit_;
-  double calm_ = 0;                        ///< a wind below this has no direction [m/s]
-  std::array<BlockVector, 3> slope_;       ///< [component][axis]: h ∂u_c/∂x_axis [m/s]
-  std::array<BlockVector, 3> transverse_;  ///< [component][axis]: u_axis ∂u_c/∂x_axis [m/s²]
+  double calm_ = 0;  ///< a wind below this has no direction [m/s]
   BlockVector face_velocity_;
-  BlockArray face_;  ///< one value or flux a face
+  std::unique_ptr<Tile> tile_;
 };
 
 }  // namespace spume::flow

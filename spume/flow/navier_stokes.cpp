@@ -23,7 +23,7 @@ struct NavierStokes::Implementation {
         projection(on, elliptic),
         rate(on),
         velocity(ghosted_vector(rate)),
-        force(velocity),
+        force(velocity[0]),
         pressure(velocity[0]),
         acceleration(block_vector(BlockLayout(on))) {}
 
@@ -35,9 +35,11 @@ struct NavierStokes::Implementation {
   Godunov godunov;
   Projection projection;
   grid::VectorField rate;  ///< (u* − uⁿ)/Δt, then (uⁿ⁺¹ − uⁿ)/Δt [m/s²]
-  GhostedVector velocity, force;
+  GhostedVector velocity;
+  GhostedField force;  ///< one component of it
   GhostedField pressure;
   BlockVector acceleration;
+  StageTimes times;
 };
 
 NavierStokes::NavierStokes(const grid::Grid& grid, const state::Gas& gas, const FlowParameters& parameters)
@@ -52,33 +54,28 @@ NavierStokes::~NavierStokes() = default;
 ///   ρ ((u* − uⁿ)/Δt + (u·∇u)^{n+½}) = −∇p^{n−½} + μ ½(∇²u* + ∇²uⁿ) + st
 void NavierStokes::Implementation::intermediate_rate(const state::GasFlow& flow,
                                                      const grid::VectorField& body_force, double dt) {
+  pressure.update(flow.pressure);
   for (int c = 0; c < 3; ++c) {
     velocity[c].update(flow.velocity[c]);
-    force[c].update(body_force[c]);
+    force.update(body_force[c]);
+    explicit_acceleration(grid, gas, c, velocity[c], pressure, force, acceleration[c]);
   }
-  pressure.update(flow.pressure);
-  explicit_acceleration(grid, gas, velocity, pressure, force, acceleration);
+  times.lap("explicit terms");
 
   godunov.predict_normals(velocity, acceleration, max_speed(flow), dt);
+  times.lap("advection");
   projection.clear_divergence(godunov.face_velocity());
-  godunov.advect(velocity, acceleration, dt, rate);
-
-  const BlockLayout layout(grid);
-  for (int c = 0; c < 3; ++c) {
-    const double* known = acceleration[c].first();
-    double* r = rate[c].values().data();
-    for_each_owned_row(layout, layout.owned(),
-                       [=](std::ptrdiff_t row, std::ptrdiff_t place, std::ptrdiff_t n) {
-#pragma GCC ivdep
-                         for (std::ptrdiff_t i = 0; i < n; ++i) r[place + i] = known[row + i] - r[place + i];
-                       });
-  }
+  times.lap("MAC projection");
+  godunov.accelerate(velocity, acceleration, dt, rate);
+  times.lap("advection");
   diffuse_implicitly(elliptic, gas, dt, rate);
+  times.lap("diffusion");
 }
 
 void NavierStokes::step(state::GasFlow& flow, const grid::VectorField& body_force, double dt) {
   expects(dt > 0, "a positive time step");
   Implementation& now = *implementation_;
+  now.times.restart();
   now.intermediate_rate(flow, body_force, dt);
   now.projection.project(now.gas.density, now.rate, flow.pressure);
 
@@ -92,6 +89,36 @@ void NavierStokes::step(state::GasFlow& flow, const grid::VectorField& body_forc
     throw NumericalError(
         (std::ostringstream() << "gas flow: the velocity is not finite after a step of " << dt << " s")
             .str());
+  now.times.lap("projections");
+}
+
+const StageTimes& NavierStokes::times() const {
+  return implementation_->times;
+}
+
+void NavierStokes::film_velocity(const state::GasFlow& flow, grid::VectorField& on_faces) {
+  Implementation& now = *implementation_;
+  const BlockLayout layout(now.grid);
+  BlockVector& face = now.godunov.face_velocity();
+  for (int c = 0; c < 3; ++c) {
+    now.velocity[c].update(flow.velocity[c]);
+    const double* u = first(now.velocity[c], now.grid);
+    double* normal = face[c].first();
+    const std::ptrdiff_t down = layout.stride(c);
+    for_each_row(layout, layout.owned_faces(c), [=](std::ptrdiff_t row, std::ptrdiff_t n) {
+      for (std::ptrdiff_t i = row; i < row + n; ++i) normal[i] = 0.5 * (u[i - down] + u[i]);
+    });
+  }
+  now.projection.clear_divergence(face);
+  for (int c = 0; c < 3; ++c) {
+    const double* normal = face[c].first();
+    double* to = on_faces[c].values().data();
+    for_each_owned_row(layout, layout.owned(),
+                       [=](std::ptrdiff_t row, std::ptrdiff_t place, std::ptrdiff_t n) {
+                         std::copy(normal + row, normal + row + n, to + place);
+                       });
+  }
+  now.times.lap("velocity of films");
 }
 
 StepLimit NavierStokes::advection_limit(const state::GasFlow& flow, double cfl) const {

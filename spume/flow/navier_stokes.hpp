@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "spume/base/stage_times.hpp"
 #include "spume/grid/elliptic.hpp"
 #include "spume/state/gas_flow.hpp"
 #include "spume/state/materials.hpp"
@@ -39,6 +40,15 @@ class NavierStokes {
   ///
   /// Throws NumericalError when the result is not finite.
   void step(state::GasFlow& flow, const grid::VectorField& body_force, double dt);
+
+  /// Processor time of all steps so far: ghosts and explicit terms, advection, MAC projection, diffusion,
+  /// projections.
+  const StageTimes& times() const;
+
+  /// The velocity with which films move, on faces (grid::Placement::Faces): means of two cells, made free of
+  /// divergence by the MAC projection. What the approximate projection of a step leaves of the gradients in
+  /// newly spread forces would else move the films, and damp them. Collective.
+  void film_velocity(const state::GasFlow& flow, grid::VectorField& on_faces);
 
   /// dt ≤ cfl h / max|u|. Collective.
   StepLimit advection_limit(const state::GasFlow& flow, double cfl) const;

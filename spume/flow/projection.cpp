@@ -25,29 +25,23 @@ void for_each_divergence(const grid::Grid& grid, const BlockLayout& layout, cons
 }  // namespace
 
 Projection::Projection(const grid::Grid& grid, grid::EllipticSolver& elliptic)
-    : grid_(grid),
-      elliptic_(elliptic),
-      layout_(grid),
-      potential_(grid),
-      ghosted_potential_(potential_),
-      ghosted_vector_{ghosted_potential_, ghosted_potential_, ghosted_potential_} {}
+    : grid_(grid), elliptic_(elliptic), layout_(grid), potential_(grid), ghosted_(potential_) {}
 
 void Projection::clear_divergence(BlockVector& face_velocity) {
   double* rhs = potential_.values().data();
   for_each_divergence(grid_, layout_, face_velocity,
                       [=](std::ptrdiff_t c, double value) { rhs[c] = -value; });
   elliptic_.solve(0, 1, potential_, potential_);
-  ghosted_potential_.update(potential_);
+  ghosted_.update(potential_);
   const double per_h = 1 / grid_.h();
   for (int axis = 0; axis < 3; ++axis) {
     double* normal = face_velocity[axis].first();
-    const std::array<std::ptrdiff_t, 3> stride{1, ghosted_potential_.stride_y(),
-                                               ghosted_potential_.stride_z()};
+    const std::array<std::ptrdiff_t, 3> stride{1, ghosted_.stride_y(), ghosted_.stride_z()};
     const std::ptrdiff_t s = stride[axis];
     const CellRange faces = layout_.owned_faces(axis);
     for (int k = faces.lower.k; k < faces.upper.k; ++k)
       for (int j = faces.lower.j; j < faces.upper.j; ++j) {
-        const double* phi = ghosted_potential_.at(0, j, k + grid_.z_begin());
+        const double* phi = ghosted_.at(0, j, k + grid_.z_begin());
         double* u = normal + layout_.offset(0, j, k);
 #pragma GCC ivdep
         for (int i = 0; i < faces.upper.i; ++i) u[i] -= per_h * (phi[i] - phi[i - s]);
@@ -57,10 +51,9 @@ void Projection::clear_divergence(BlockVector& face_velocity) {
 
 /// Subtracts Gφ with ∇²_h φ = D x from x, and leaves φ in potential_.
 void Projection::remove_gradient(grid::VectorField& x) {
-  for (int c = 0; c < 3; ++c) ghosted_vector_[c].update(x[c]);
   const Index3 n = grid_.cells();
   const double half_per_h = 0.5 / grid_.h();
-  const std::ptrdiff_t sy = ghosted_potential_.stride_y(), sz = ghosted_potential_.stride_z();
+  const std::ptrdiff_t sy = ghosted_.stride_y(), sz = ghosted_.stride_z();
   const auto for_rows = [&](auto&& body) {
     std::ptrdiff_t place = 0;
     for (int k = grid_.z_begin(); k < grid_.z_end(); ++k)
@@ -68,20 +61,24 @@ void Projection::remove_gradient(grid::VectorField& x) {
   };
 
   double* source = potential_.values().data();
-  for_rows([&](int j, int k, std::ptrdiff_t place) {
-    const double *u = ghosted_vector_[0].at(0, j, k), *v = ghosted_vector_[1].at(0, j, k),
-                 *w = ghosted_vector_[2].at(0, j, k);
-    double* row = source + place;
+  const std::array<std::ptrdiff_t, 3> stride{1, sy, sz};
+  for (int c = 0; c < 3; ++c) {
+    ghosted_.update(x[c]);
+    const std::ptrdiff_t step = stride[c];
+    for_rows([&](int j, int k, std::ptrdiff_t place) {
+      const double* v = ghosted_.at(0, j, k);
+      double* row = source + place;
 #pragma GCC ivdep
-    for (int i = 0; i < n.i; ++i)
-      row[i] = -half_per_h * (u[i + 1] - u[i - 1] + v[i + sy] - v[i - sy] + w[i + sz] - w[i - sz]);
-  });
+      for (int i = 0; i < n.i; ++i)
+        row[i] = (c == 0 ? 0.0 : row[i]) - half_per_h * (v[i + step] - v[i - step]);
+    });
+  }
   elliptic_.solve(0, 1, potential_, potential_);
-  ghosted_potential_.update(potential_);
+  ghosted_.update(potential_);
 
   double *first = x[0].values().data(), *second = x[1].values().data(), *third = x[2].values().data();
   for_rows([&](int j, int k, std::ptrdiff_t place) {
-    const double* phi = ghosted_potential_.at(0, j, k);
+    const double* phi = ghosted_.at(0, j, k);
     double *u = first + place, *v = second + place, *w = third + place;
 #pragma GCC ivdep
     for (int i = 0; i < n.i; ++i) {

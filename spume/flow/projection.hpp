@@ -38,9 +38,8 @@ class Projection {
   const grid::Grid& grid_;
   grid::EllipticSolver& elliptic_;
   BlockLayout layout_;
-  grid::Field potential_;  ///< whose gradient was removed last
-  grid::Ghosted<1> ghosted_potential_;
-  std::array<grid::Ghosted<1>, 3> ghosted_vector_;
+  grid::Field potential_;     ///< whose gradient was removed last
+  grid::Ghosted<1> ghosted_;  ///< the potential, or one component of a vector
 };
 
 /// max |D u_face| [1/s] of the owned cells of all ranks. Collective.

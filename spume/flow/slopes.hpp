@@ -12,4 +12,10 @@ namespace spume::flow {
 void slopes(const BlockLayout& layout, const CellRange& range, int axis, bool limit, const double* u,
             double* slope);
 
+/// The two stages of it for a row of n cells along x, neighbours along the axis `s` apart in u: δu of the
+/// row, and the slopes from δu of the rows of neighbours below and above.
+void central_differences(std::ptrdiff_t n, std::ptrdiff_t s, bool limit, const double* u, double* delta);
+void slopes_from_differences(std::ptrdiff_t n, std::ptrdiff_t s, bool limit, const double* u,
+                             const double* delta_below, const double* delta_above, double* slope);
+
 }  // namespace spume::flow

@@ -20,8 +20,19 @@ struct FilmForces {
 FilmForces film_forces(const mesh::FilmMesh& films, const mesh::Topology& topology, int n_phases,
                        double surface_tension);
 
-/// st_ζ of the paper's (7): the remaining vertex forces spread by the kernel [N/m³]. Overwrites `density`.
-void spread_film_forces(const mesh::FilmMesh& films, const FilmForces& forces,
-                        const grid::KernelCoupling& kernel, grid::VectorField& density);
+/// Brings film forces to the gas.
+class ForceSpreader {
+ public:
+  explicit ForceSpreader(const grid::Grid& grid) : on_faces_(grid), ghosted_(on_faces_[0]) {}
+
+  /// st_ζ of the paper's (7): vertex forces spread to faces by the kernel, and to the centres of cells by the
+  /// mean of a cell's two faces [N/m³]. Overwrites `density`. Collective.
+  void spread(const mesh::FilmMesh& films, const FilmForces& forces, const grid::KernelCoupling& kernel,
+              grid::VectorField& density);
+
+ private:
+  grid::VectorField on_faces_;
+  grid::Ghosted<1> ghosted_;
+};
 
 }  // namespace spume::flow

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "spume/base/contract.hpp"
@@ -30,46 +31,59 @@ struct GhostedShape {
   std::array<std::ptrdiff_t, 3> stride;
 };
 
-/// Sets the plane `to` across `axis` (counted in the buffer, ghosts included) to `sign` times the plane
-/// `from`.
-void copy_plane(const GhostedShape& shape, int axis, int to, int from, double sign, double* buffer) {
-  double* target = buffer + to * shape.stride[axis];
-  const double* source = buffer + from * shape.stride[axis];
-  // Planes across z are contiguous, planes across y are rows of each layer, planes across x are columns.
-  const std::ptrdiff_t run = axis == 0 ? 1 : axis == 1 ? shape.stride[1] : shape.stride[2];
-  const std::ptrdiff_t step = axis == 0 ? shape.stride[1] : shape.stride[2];
-  const int repeats = axis == 0 ? shape.outer.j * shape.outer.k : axis == 1 ? shape.outer.k : 1;
-  for (int r = 0; r < repeats; ++r, target += step, source += step)
-    for (std::ptrdiff_t m = 0; m < run; ++m) target[m] = sign * source[m];
+/// How the values of a field go on beyond one face across an axis: the image of the g-th ghost, counted from
+/// the face, and its sign.
+struct Continuation {
+  Boundary boundary;
+  double sign;
+
+  Continuation(const Field& f, int axis)
+      : boundary(f.grid().box().boundary[axis]),
+        sign(boundary != Boundary::Periodic && f.symmetry()[axis] == Parity::Odd ? -1.0 : 1.0) {}
+  /// Places along the axis, ghosts counted, of the images for a width w and n inner places.
+  int below(int g, int w, int n) const { return boundary == Boundary::Periodic ? w + n - 1 - g : w + g; }
+  int above(int g, int w, int n) const { return boundary == Boundary::Periodic ? w + g : w + n - 1 - g; }
+};
+
+void copy(const double* from, std::ptrdiff_t n, double sign, double* to) {
+  for (std::ptrdiff_t m = 0; m < n; ++m) to[m] = sign * from[m];
 }
 
-enum class Side { Lower, Upper };
-
-/// Mirror images beyond a wall, over the whole extent of the other axes, their ghosts included: filling the
-/// axes one after another therefore fills edges and corners too.
-void mirror(const GhostedShape& shape, int axis, Side side, Parity parity, double* buffer) {
-  const int w = shape.width, n = shape.inner[axis];  // inner planes are w … w+n−1
-  const double sign = parity == Parity::Odd ? -1.0 : 1.0;
+/// Fills a layer of a buffer from the rows of owned cells, contiguous in `from`, with its ghosts across x and
+/// y while the layer is in cache. `from` may be the beginning of that layer: rows are moved last first.
+void fill_layer(const GhostedShape& shape, const Continuation& x, const Continuation& y, const double* from,
+                double* layer) {
+  const int w = shape.width, nx = shape.inner.i, ny = shape.inner.j;
+  const std::ptrdiff_t stride = shape.stride[1];
+  for (int j = ny - 1; j >= 0; --j) {
+    double* row = layer + (j + w) * stride;
+    std::memmove(row + w, from + static_cast<std::ptrdiff_t>(j) * nx, sizeof(double) * nx);
+    for (int g = 0; g < w; ++g) {
+      row[w - 1 - g] = x.sign * row[x.below(g, w, nx)];
+      row[w + nx + g] = x.sign * row[x.above(g, w, nx)];
+    }
+  }
   for (int g = 0; g < w; ++g) {
-    if (side == Side::Lower)
-      copy_plane(shape, axis, w - 1 - g, w + g, sign, buffer);
-    else
-      copy_plane(shape, axis, w + n + g, w + n - 1 - g, sign, buffer);
+    copy(layer + y.below(g, w, ny) * stride, stride, y.sign, layer + (w - 1 - g) * stride);
+    copy(layer + y.above(g, w, ny) * stride, stride, y.sign, layer + (w + ny + g) * stride);
   }
 }
 
-/// Owned cells, ghosts from other ranks and periodic images, by PETSc; ghosts beyond walls stay unset.
-void exchange_by_petsc(const Field& f, int width, double* buffer) {
-  using parallel::petsc_check;
-  GhostExchange& exchange = ghost_exchange(f.grid(), width);
-  const Vec owned_values = exchange.owned.get();
-  const Vec ghosted_values = exchange.ghosted.get();
-  petsc_check(VecPlaceArray(owned_values, f.values().data()));
-  petsc_check(VecPlaceArray(ghosted_values, buffer));
-  petsc_check(DMGlobalToLocalBegin(exchange.dm.get(), owned_values, INSERT_VALUES, ghosted_values));
-  petsc_check(DMGlobalToLocalEnd(exchange.dm.get(), owned_values, INSERT_VALUES, ghosted_values));
-  petsc_check(VecResetArray(owned_values));
-  petsc_check(VecResetArray(ghosted_values));
+/// Layers of the neighbouring ranks beyond the ends of the slab, packed, each to the first of the ghost
+/// layers where it belongs; false where there is no neighbour. A slab is at least as thick as its ghosts.
+std::array<bool, 2> receive_layers(const Field& f, const GhostedShape& shape, double* lower, double* upper) {
+  const parallel::Communicator& ranks = f.grid().communicator();
+  const bool periodic = f.grid().box().boundary[2] == Boundary::Periodic;
+  const int above = ranks.rank() + 1 < ranks.size() ? ranks.rank() + 1 : periodic ? 0 : MPI_PROC_NULL;
+  const int below = ranks.rank() > 0 ? ranks.rank() - 1 : periodic ? ranks.size() - 1 : MPI_PROC_NULL;
+  const std::ptrdiff_t layer = static_cast<std::ptrdiff_t>(shape.inner.i) * shape.inner.j;
+  const double* owned = f.values().data();
+  const int count = static_cast<int>(shape.width * layer);
+  MPI_Sendrecv(owned + (shape.inner.k - shape.width) * layer, count, MPI_DOUBLE, above, 0, lower, count,
+               MPI_DOUBLE, below, 0, ranks.handle(), MPI_STATUS_IGNORE);
+  MPI_Sendrecv(owned, count, MPI_DOUBLE, below, 1, upper, count, MPI_DOUBLE, above, 1, ranks.handle(),
+               MPI_STATUS_IGNORE);
+  return {below != MPI_PROC_NULL, above != MPI_PROC_NULL};
 }
 
 }  // namespace
@@ -93,13 +107,24 @@ void exchange_ghosts(const Field& f, int width, std::vector<double>& buffer) {
   const Grid& grid = f.grid();
   const GhostedShape shape(grid, width);
   buffer.resize(shape.size());
-  exchange_by_petsc(f, width, buffer.data());
-  for (int axis = 0; axis < 3; ++axis) {
-    if (grid.box().boundary[axis] == Boundary::Periodic) continue;
-    const bool at_lower = axis != 2 || grid.z_begin() == 0;
-    const bool at_upper = axis != 2 || grid.z_end() == grid.cells().k;
-    if (at_lower) mirror(shape, axis, Side::Lower, f.symmetry()[axis], buffer.data());
-    if (at_upper) mirror(shape, axis, Side::Upper, f.symmetry()[axis], buffer.data());
+  const Continuation x(f, 0), y(f, 1), z(f, 2);
+  const int w = width, n = shape.inner.k;
+  const std::ptrdiff_t layer = static_cast<std::ptrdiff_t>(shape.inner.i) * shape.inner.j;
+  const auto at = [&](int k) { return buffer.data() + k * shape.stride[2]; };
+  for (int k = 0; k < n; ++k) fill_layer(shape, x, y, f.values().data() + k * layer, at(w + k));
+
+  const bool alone = grid.communicator().size() == 1;
+  const auto [from_below, from_above] =
+      alone ? std::array{false, false} : receive_layers(f, shape, at(0), at(w + n));
+  for (int g = w - 1; g >= 0; --g) {  // packed layers move to their places last first
+    if (from_below)
+      fill_layer(shape, x, y, at(0) + g * layer, at(g));
+    else
+      copy(at(z.below(w - 1 - g, w, n)), shape.stride[2], z.sign, at(g));
+    if (from_above)
+      fill_layer(shape, x, y, at(w + n) + g * layer, at(w + n + g));
+    else
+      copy(at(z.above(g, w, n)), shape.stride[2], z.sign, at(w + n + g));
   }
 }
 
@@ -108,6 +133,7 @@ std::vector<double> gather(const Field& f) {
   const parallel::Communicator& communicator = grid.communicator();
   expects(grid.total_size() <= static_cast<std::size_t>(std::numeric_limits<int>::max()),
           "a gathered field has at most 2^31 - 1 cells");
+  if (communicator.size() == 1) return {f.values().begin(), f.values().end()};
   const int layer = grid.cells().i * grid.cells().j;
   std::vector<int> counts(communicator.size()), offsets(communicator.size());
   const int count = static_cast<int>(grid.owned_size());

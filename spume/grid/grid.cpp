@@ -47,32 +47,6 @@ void check_box(const Box& box) {
     expects(std::abs(size[axis] - h * box.cells[axis]) <= 1e-9 * size[axis], "the cells are cubes");
 }
 
-DMBoundaryType petsc_boundary(Boundary boundary) {
-  return boundary == Boundary::Periodic ? DM_BOUNDARY_PERIODIC : DM_BOUNDARY_GHOSTED;
-}
-
-GhostExchange make_exchange(const Grid& grid, int width) {
-  using parallel::petsc_check;
-  const Index3 n = grid.cells();
-  const auto& boundary = grid.box().boundary;
-  const MPI_Comm comm = grid.communicator().handle();
-  const int ranks = grid.communicator().size();
-  std::vector<PetscInt> layers(ranks);
-  for (int r = 0; r < ranks; ++r) layers[r] = slab_begin(n.k, ranks, r + 1) - slab_begin(n.k, ranks, r);
-
-  GhostExchange exchange;
-  petsc_check(DMDACreate3d(comm, petsc_boundary(boundary[0]), petsc_boundary(boundary[1]),
-                           petsc_boundary(boundary[2]), DMDA_STENCIL_BOX, n.i, n.j, n.k, 1, 1, ranks, 1,
-                           width, &n.i, &n.j, layers.data(), exchange.dm.out()));
-  petsc_check(DMSetUp(exchange.dm.get()));
-  const auto owned_size = static_cast<PetscInt>(grid.owned_size());
-  const PetscInt ghosted_size =
-      (n.i + 2 * width) * (n.j + 2 * width) * (grid.z_end() - grid.z_begin() + 2 * width);
-  petsc_check(VecCreateMPIWithArray(comm, 1, owned_size, PETSC_DETERMINE, nullptr, exchange.owned.out()));
-  petsc_check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, ghosted_size, nullptr, exchange.ghosted.out()));
-  return exchange;
-}
-
 }  // namespace
 
 Grid::Grid(const parallel::Communicator& communicator, const Box& box)
@@ -91,13 +65,6 @@ Grid::Grid(const parallel::Communicator& communicator, const Box& box)
 }
 
 Grid::~Grid() = default;
-
-GhostExchange& ghost_exchange(const Grid& grid, int width) {
-  auto& cache = grid.implementation().exchange_of_width;
-  auto found = cache.find(width);
-  if (found == cache.end()) found = cache.emplace(width, make_exchange(grid, width)).first;
-  return found->second;
-}
 
 Symmetry effective_symmetry(const Box& box, Symmetry symmetry) {
   for (int axis = 0; axis < 3; ++axis)

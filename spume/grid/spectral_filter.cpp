@@ -13,18 +13,26 @@ struct SpectralFilter::Implementation {
 
 SpectralFilter::SpectralFilter(const Grid& grid, Symmetry symmetry,
                                const std::function<double(const Vec3& theta)>& factor)
+    : SpectralFilter(grid, symmetry, [&](const AxisAngles& theta) -> FactorOfRow {
+        return [&factor, theta](int mode_y, int mode_z, std::span<double> factors) {
+          for (std::size_t m = 0; m < factors.size(); ++m)
+            factors[m] = factor({theta[0][m], theta[1][mode_y], theta[2][mode_z]});
+        };
+      }) {}
+
+SpectralFilter::SpectralFilter(const Grid& grid, Symmetry symmetry,
+                               const std::function<FactorOfRow(const AxisAngles& theta)>& factor_of_row)
     : implementation_(std::make_unique<Implementation>()) {
   Transform& transform = transform_of(grid, symmetry);
   implementation_->grid = &grid;
   implementation_->transform = &transform;
+  const std::size_t row_size = transform.theta(0).size();
   auto& table = implementation_->factor;
-  table.reserve(transform.theta(0).size() * transform.n_rows());
-  for (int row = 0; row < transform.n_rows(); ++row) {
-    const double theta_y = transform.theta(1)[transform.mode_y(row)];
-    const double theta_z = transform.theta(2)[transform.mode_z(row)];
-    for (const double theta_x : transform.theta(0))
-      table.push_back(transform.normalisation() * factor({theta_x, theta_y, theta_z}));
-  }
+  table.resize(row_size * transform.n_rows());
+  const FactorOfRow fill = factor_of_row({transform.theta(0), transform.theta(1), transform.theta(2)});
+  for (int row = 0; row < transform.n_rows(); ++row)
+    fill(transform.mode_y(row), transform.mode_z(row), std::span(table).subspan(row * row_size, row_size));
+  for (double& value : table) value *= transform.normalisation();
 }
 
 SpectralFilter::~SpectralFilter() = default;

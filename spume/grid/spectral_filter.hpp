@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "spume/grid/field.hpp"
@@ -18,6 +20,13 @@ class SpectralFilter {
   /// Collective. `symmetry`: of the fields that it will be applied to, whatever symmetry they carry
   /// themselves.
   SpectralFilter(const Grid& grid, Symmetry symmetry, const std::function<double(const Vec3& theta)>& factor);
+  /// The same for factors that are made of functions of one angle each, and so best tabulated by axis: given
+  /// the angles of the modes along x, y and z, `factor_of_row` fills the factors of a row of modes along x,
+  /// whose numbers along y and z it is given. Collective.
+  using AxisAngles = std::array<std::span<const double>, 3>;
+  using FactorOfRow = std::function<void(int mode_y, int mode_z, std::span<double> factors)>;
+  SpectralFilter(const Grid& grid, Symmetry symmetry,
+                 const std::function<FactorOfRow(const AxisAngles& theta)>& factor_of_row);
   ~SpectralFilter();
   SpectralFilter(SpectralFilter&&) noexcept;
 

@@ -4,9 +4,9 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <unordered_map>
 
 #include "spume/base/error.hpp"
+#include "spume/base/flat_map.hpp"
 
 namespace spume::interface {
 
@@ -104,16 +104,46 @@ class Contourer {
     CellBox cubes = whole_;
     for (int d = 0; d < 3; ++d)
       if (!potentials_.lattice().periodic[d]) --cubes.end[d];
-    for_each_cell(cubes, [&](int i, int j, int k) {
-      read_winners(i, j, k);
-      bool uniform = true;
-      for (int c = 1; c < 8; ++c) uniform = uniform && cube_winner_[c] == cube_winner_[0];
-      if (!uniform) contour_cube(i, j, k);
-    });
+    for (int k = cubes.begin.k; k < cubes.end.k; ++k) {
+      for (int j = cubes.begin.j; j < cubes.end.j; ++j) {
+        find_mixed_cubes(cubes.end.i, j, k);
+        for (int i = cubes.begin.i; i < cubes.end.i; ++i)
+          if (mixed_[i]) {
+            read_winners(i, j, k);
+            contour_cube(i, j, k);
+          }
+      }
+    }
     return std::move(films_);
   }
 
  private:
+  /// Marks the cubes of a row that are not of one winner.
+  void find_mixed_cubes(int n, int j, int k) {
+    const int last = whole_.end.i - 1;  // whose cube, in a periodic row, goes on at the other end
+    mixed_.resize(n);
+    const mesh::Phase* w = &winner_[lattice_point(0, j, k, 0)];
+    const mesh::Phase *y = &winner_[lattice_point(0, j, k, 2)], *z = &winner_[lattice_point(0, j, k, 4)],
+                      *yz = &winner_[lattice_point(0, j, k, 6)];
+    const auto is_mixed = [=](int i, int next) {
+      return (w[i] ^ w[next]) | (w[i] ^ y[i]) | (w[i] ^ y[next]) | (w[i] ^ z[i]) | (w[i] ^ z[next]) |
+             (w[i] ^ yz[i]) | (w[i] ^ yz[next]);
+    };
+    for (int i = 0; i < last; ++i) mixed_[i] = is_mixed(i, i + 1);
+    if (n > last) mixed_[last] = is_mixed(last, 0);
+  }
+  static std::array<double, 8> values_of_cube(const PhaseField& field, int i, int j, int k) {
+    const Index3 c = field.lattice.image_in(field.cells, i, j, k);
+    std::array<double, 8> value;
+    if (field.cells.contains(c.i + 1, c.j + 1, c.k + 1)) {
+      const double* v = &field.value[field.cells.offset(c.i, c.j, c.k)];
+      const std::ptrdiff_t y = field.cells.stride_y(), z = field.cells.stride_z();
+      value = {v[0], v[1], v[y], v[y + 1], v[z], v[z + 1], v[z + y], v[z + y + 1]};
+    } else {
+      for (int m = 0; m < 8; ++m) value[m] = field.at(i + (m & 1), j + (m >> 1 & 1), k + (m >> 2));
+    }
+    return value;
+  }
   void read_winners(int i, int j, int k) {
     for (int c = 0; c < 8; ++c) cube_winner_[c] = winner_[lattice_point(i, j, k, c)];
   }
@@ -144,20 +174,24 @@ class Contourer {
     for (const PhaseField* field : bins_.at(i, j, k)) {
       if (!field->place(i, j, k) || !field->place(i + 1, j + 1, k + 1)) continue;
       if (n_cube_ == max_candidates) throw NumericalError("more than 24 phases compete for one cell");
-      auto& value = cube_value_[n_cube_];
-      for (int c = 0; c < 8; ++c)
-        value[c] = field->value[*field->place(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2))];
+      cube_value_[n_cube_] = values_of_cube(*field, i, j, k);
       cube_phase_[n_cube_++] = field->phase;
     }
-    std::array<bool, max_candidates> wins{}, beaten{};
+    std::array<int, 8> winners;  // their places among the candidates
+    int n_winners = 0;
     for (int a = 0; a < n_cube_; ++a)
-      for (int c = 0; c < 8; ++c) wins[a] = wins[a] || cube_winner_[c] == cube_phase_[a];
-    for (int a = 0; a < n_cube_; ++a)
-      for (int w = 0; w < n_cube_ && !beaten[a]; ++w) {
-        if (w == a || !wins[w]) continue;
-        beaten[a] = true;
-        for (int c = 0; c < 8; ++c) beaten[a] = beaten[a] && cube_value_[a][c] < cube_value_[w][c];
+      if (std::find(cube_winner_.begin(), cube_winner_.end(), cube_phase_[a]) != cube_winner_.end())
+        winners[n_winners++] = a;
+    const auto is_beaten = [&](int a) {
+      for (int w = 0; w < n_winners; ++w) {
+        int n_below = 0;
+        for (int c = 0; c < 8; ++c) n_below += cube_value_[a][c] < cube_value_[winners[w]][c];
+        if (n_below == 8) return true;
       }
+      return false;
+    };
+    std::array<bool, max_candidates> beaten;
+    for (int a = 0; a < n_cube_; ++a) beaten[a] = is_beaten(a);
     int n = 0;
     for (int a = 0; a < n_cube_; ++a) {
       if (beaten[a]) continue;
@@ -170,9 +204,11 @@ class Contourer {
   /// The same for the four corners of a tetrahedron.
   void find_tetrahedron_candidates() {
     n_ = 0;
+    // Of two, each wins somewhere here: a tetrahedron of one winner is not looked at.
+    const bool both = n_cube_ == 2;
     for (int a = 0; a < n_cube_; ++a) {
       bool beaten = false;
-      for (int w = 0; w < n_cube_ && !beaten; ++w) {
+      for (int w = 0; w < n_cube_ && !beaten && !both; ++w) {
         if (w == a) continue;
         bool wins = false, below = true;
         for (int m : mask_) {
@@ -314,9 +350,9 @@ class Contourer {
         chain |= static_cast<std::uint64_t>(mask_[c] ^ mask_[lowest]) << (3 * n_steps++);
     VertexKey key{lattice_point(cube_.i, cube_.j, cube_.k, mask_[lowest]) << 9 | chain, {-1, -1, -1, -1}};
     std::copy(phases.begin(), phases.end(), key.phases.begin());
-    const auto [known, is_new] = vertex_of_.try_emplace(key, films_.n_vertices());
-    if (is_new) films_.position.push_back(position(polygon.corner[corner]));
-    return known->second;
+    const int number = vertex_of_.find_or_insert(key, films_.n_vertices());
+    if (number == films_.n_vertices()) films_.position.push_back(position(polygon.corner[corner]));
+    return number;
   }
 
   Vec3 position(const Corner& corner) const {
@@ -332,7 +368,8 @@ class Contourer {
   FieldBins bins_;
   CellBox whole_;
   mesh::FilmMesh films_;
-  std::unordered_map<VertexKey, int, VertexKeyHash> vertex_of_;
+  FlatMap<VertexKey, VertexKeyHash> vertex_of_;
+  std::vector<int> mixed_;  ///< of the row: 0 where all corners of a cube have one winner
 
   // of the cube
   Index3 cube_;

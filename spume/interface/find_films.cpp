@@ -1,6 +1,7 @@
 #include "spume/interface/find_films.hpp"
 
 #include <utility>
+#include <vector>
 
 #include "spume/base/random.hpp"
 #include "spume/interface/contour.hpp"
@@ -59,17 +60,31 @@ FoundFilms find_films(PhasePotentials& potentials, state::Phases& phases, double
   return found;
 }
 
-int project_vertices(const PhasePotentials& potentials, const mesh::Topology& topology,
-                     mesh::FilmMesh& films) {
+int project_vertices(const parallel::Communicator& ranks, const PhasePotentials& potentials,
+                     const mesh::Topology& topology, mesh::FilmMesh& films) {
+  const auto begin_of = [&](int rank) {
+    return static_cast<int>(static_cast<long>(films.n_vertices()) * rank / ranks.size());
+  };
   int n_refused = 0;
-  for (int v = 0; v < films.n_vertices(); ++v) {
+  for (int v = begin_of(ranks.rank()); v < begin_of(ranks.rank() + 1); ++v) {
     const auto projected = potentials.project(films.position[v], topology.vertex_phases[v]);
     if (projected)
       films.position[v] = *projected;
     else
       ++n_refused;
   }
-  return n_refused;
+  if (ranks.size() == 1) return n_refused;
+  std::vector<double> share;
+  for (int rank = 0; rank < ranks.size(); ++rank) {
+    const int begin = begin_of(rank), end = begin_of(rank + 1);
+    share.resize(3 * static_cast<std::size_t>(end - begin));
+    for (int v = begin; v < end; ++v)
+      for (int d = 0; d < 3; ++d) share[3 * (v - begin) + d] = films.position[v][d];
+    ranks.broadcast(share, rank);
+    for (int v = begin; v < end; ++v)
+      for (int d = 0; d < 3; ++d) films.position[v][d] = share[3 * (v - begin) + d];
+  }
+  return static_cast<int>(ranks.sum(n_refused));
 }
 
 }  // namespace spume::interface

@@ -7,6 +7,7 @@
 #include "spume/interface/reconstruct.hpp"
 #include "spume/mesh/film_mesh.hpp"
 #include "spume/mesh/topology.hpp"
+#include "spume/parallel/communicator.hpp"
 
 namespace spume::interface {
 
@@ -22,8 +23,8 @@ FoundFilms find_films(PhasePotentials& potentials, state::Phases& phases, double
                       std::vector<PhaseChange>& changes);
 
 /// Puts the vertices onto the tie of their phases by Newton's method; gives the number that stayed where they
-/// were.
-int project_vertices(const PhasePotentials& potentials, const mesh::Topology& topology,
-                     mesh::FilmMesh& films);
+/// were. Each rank does its share of them. Collective.
+int project_vertices(const parallel::Communicator& ranks, const PhasePotentials& potentials,
+                     const mesh::Topology& topology, mesh::FilmMesh& films);
 
 }  // namespace spume::interface

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -25,19 +26,24 @@ CubicWeights cubic_weights(double t) {
            (3 * t * t - 1) / 6}};
 }
 
-/// A row of four values of a field, from a cell whose image in the field's block is `start`; outside the
-/// block, and where the row goes over the edge of the grid, they are read one by one.
-std::array<double, 4> row(const PhaseField& f, const Index3& start, int j, int k) {
-  std::array<double, 4> values;
+/// 4 × 4 × 4 values of a field: where they begin, and the distances between rows and planes.
+struct ValueBlock {
+  const double* first;
+  std::ptrdiff_t stride_y, stride_z;
+};
+
+/// The values from cell (i, j, k) on; copied into `room` where the block is not in one piece inside the
+/// field's cells.
+ValueBlock values_at(const PhaseField& f, int i, int j, int k, std::array<double, 64>& room) {
   const CellBox& c = f.cells;
-  const int y = start.j + j, z = start.k + k;
-  if (start.i + 4 <= c.end.i && c.contains(start.i, y, z)) {
-    const double* from = &f.value[c.offset(start.i, y, z)];
-    std::copy(from, from + 4, values.begin());
-  } else {
-    for (int n = 0; n < 4; ++n) values[n] = f.at(start.i + n, y, z);
-  }
-  return values;
+  const Index3 start = f.lattice.image_in(c, i, j, k);
+  if (c.contains(start.i, start.j, start.k) && c.contains(start.i + 3, start.j + 3, start.k + 3))
+    return {&f.value[c.offset(start.i, start.j, start.k)], c.stride_y(), c.stride_z()};
+  double* to = room.data();
+  for (int z = 0; z < 4; ++z)
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 4; ++x) *to++ = f.at(i + x, j + y, k + z);
+  return {room.data(), 4, 16};
 }
 
 bool is_near(const Vec3& x, const Vec3& start, double reach) {
@@ -83,29 +89,34 @@ double PhasePotentials::difference(const PhaseField& a, const PhaseField& b, con
             k = static_cast<int>(std::floor(place.z));
   const CubicWeights wx = cubic_weights(place.x - i), wy = cubic_weights(place.y - j),
                      wz = cubic_weights(place.z - k);
-  const Index3 start_a = lattice_.image_in(a.cells, i - 1, j - 1, k - 1),
-               start_b = lattice_.image_in(b.cells, i - 1, j - 1, k - 1);
-  double value = 0;
-  Vec3 slope;
+  std::array<double, 64> room_a, room_b;
+  const ValueBlock va = values_at(a, i - 1, j - 1, k - 1, room_a),
+                   vb = values_at(b, i - 1, j - 1, k - 1, room_b);
+  // Sums over z and y for the four places along x at a time.
+  using Line = double __attribute__((vector_size(32)));
+  Line value{}, slope_y{}, slope_z{};
   for (int c = 0; c < 4; ++c) {
-    double plane = 0, plane_x = 0, plane_y = 0;
+    Line plane{}, plane_y{};
     for (int m = 0; m < 4; ++m) {
-      const std::array<double, 4> va = row(a, start_a, m, c), vb = row(b, start_b, m, c);
-      double line = 0, line_x = 0;
-      for (int n = 0; n < 4; ++n) {
-        const double v = va[n] - vb[n];
-        line += wx.value[n] * v;
-        line_x += wx.slope[n] * v;
-      }
-      plane += wy.value[m] * line;
-      plane_x += wy.value[m] * line_x;
-      plane_y += wy.slope[m] * line;
+      const double *pa = va.first + c * va.stride_z + m * va.stride_y,
+                   *pb = vb.first + c * vb.stride_z + m * vb.stride_y;
+      Line row_a, row_b;
+      std::memcpy(&row_a, pa, sizeof row_a);
+      std::memcpy(&row_b, pb, sizeof row_b);
+      const Line v = row_a - row_b;
+      plane += wy.value[m] * v;
+      plane_y += wy.slope[m] * v;
     }
     value += wz.value[c] * plane;
-    slope += Vec3{wz.value[c] * plane_x, wz.value[c] * plane_y, wz.slope[c] * plane};
+    slope_y += wz.value[c] * plane_y;
+    slope_z += wz.slope[c] * plane;
   }
-  gradient = 0.5 * per_h * slope;
-  return 0.5 * value;
+  const auto along_x = [](const std::array<double, 4>& w, const Line& line) {
+    return w[0] * line[0] + w[1] * line[1] + w[2] * line[2] + w[3] * line[3];
+  };
+  gradient =
+      (0.5 * per_h) * Vec3{along_x(wx.slope, value), along_x(wx.value, slope_y), along_x(wx.value, slope_z)};
+  return 0.5 * along_x(wx.value, value);
 }
 
 std::optional<Vec3> PhasePotentials::project(const Vec3& x, const mesh::PhaseSet& phases) const {

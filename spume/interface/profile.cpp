@@ -32,7 +32,7 @@ double bisect(double low, double high, Function&& is_low) {
 }  // namespace
 
 double smoothing_kernel(double z) {
-  return std::exp(-z) * (1 + z + 0.5 * z * z);
+  return std::exp(-z) * smoothing_polynomial(z);
 }
 
 double flat_film_profile(double x, double variance) {
@@ -40,7 +40,7 @@ double flat_film_profile(double x, double variance) {
   return 0.5 * std::erf(x / std::sqrt(2 * variance)) + x * gaussian(x, variance) * (7 - u) / 8;
 }
 
-FlatFilmMap::FlatFilmMap(double variance, double floor) : variance_(variance) {
+FlatFilmMap::FlatFilmMap(double variance, double floor) {
   expects(variance > 0 && floor > 0 && floor < 1,
           "the profile needs a positive variance and a floor between 0 and 1");
   // The slope falls monotonically from its maximum at 0 to its first zero at u = 5 − √10.
@@ -50,11 +50,14 @@ FlatFilmMap::FlatFilmMap(double variance, double floor) : variance_(variance) {
       bisect(0, first_zero, [&](double x) { return profile_slope(x, variance) > floor * steepest; });
   last_value_ = flat_film_profile(last_distance_, variance);
   last_slope_ = profile_slope(last_distance_, variance);
-  constexpr int n_steps = 256;
+  constexpr int n_steps = 1024;  // cubics between them are good to 1e-13 of the width
+  steps_per_value_ = n_steps / last_value_;
   table_.resize(n_steps + 1);
   for (int n = 0; n <= n_steps; ++n) {
     const double value = last_value_ * n / n_steps;
-    table_[n] = bisect(0, last_distance_, [&](double x) { return flat_film_profile(x, variance) < value; });
+    const double x =
+        bisect(0, last_distance_, [&](double at) { return flat_film_profile(at, variance) < value; });
+    table_[n] = {x, 1 / (steps_per_value_ * profile_slope(x, variance))};
   }
 }
 
@@ -64,12 +67,12 @@ double FlatFilmMap::distance(double indicator) const {
   if (value >= last_value_) {
     x = last_distance_ + (value - last_value_) / last_slope_;
   } else {
-    const int n_steps = static_cast<int>(table_.size()) - 1;
-    const double place = value / last_value_ * n_steps;
-    const int n = std::min(static_cast<int>(place), n_steps - 1);
-    x = table_[n] + (place - n) * (table_[n + 1] - table_[n]);
-    // The chord is good to 1e-5 of the width; one Newton step squares that.
-    x -= (flat_film_profile(x, variance_) - value) / profile_slope(x, variance_);
+    const double place = value * steps_per_value_;
+    const int n = std::min(static_cast<int>(place), static_cast<int>(table_.size()) - 2);
+    const Knot &a = table_[n], &b = table_[n + 1];
+    const double t = place - n, step = b.distance - a.distance;
+    // Hermite's cubic, as the chord and what it lacks.
+    x = a.distance + t * (step + (1 - t) * ((1 - t) * (a.slope - step) - t * (b.slope - step)));
   }
   return indicator < 0.5 ? -x : x;
 }

@@ -9,6 +9,10 @@ namespace spume::interface {
 /// moment does not, so smoothing moves a curved film as curvature flow over the "time" s/10 does (see
 /// step_in_advance.hpp).
 double smoothing_kernel(double z);
+/// T(z) without its exponential, 1 + z + z²/2.
+inline double smoothing_polynomial(double z) {
+  return 1 + z + 0.5 * z * z;
+}
 
 /// c − ½ across a flat film, where the smoothed indicator of the phase at x > 0 is c(x) [−]. With u = x²/s
 /// and G the Gaussian of variance s, the kernel above integrated over the plane is K = (u² − 10u + 15) G/8,
@@ -27,9 +31,12 @@ class FlatFilmMap {
   double distance(double indicator) const;
 
  private:
-  double variance_;
   double last_distance_, last_value_, last_slope_;  ///< where the linear continuation starts
-  std::vector<double> table_;  ///< distances at equal steps of c − ½ up to last_value_
+  struct Knot {
+    double distance, slope;  ///< the slope by the number of steps
+  };
+  double steps_per_value_;
+  std::vector<Knot> table_;  ///< at equal steps of c − ½ up to last_value_
 };
 
 }  // namespace spume::interface

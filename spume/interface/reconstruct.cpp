@@ -25,14 +25,18 @@ void require_clearance(const grid::Grid& grid, const mesh::FilmMesh& films) {
 }
 
 PhasePotentials potentials_from(const grid::Grid& grid, mesh::FilmMesh films, int n_phases,
-                                const ReconstructParameters& parameters) {
+                                const ReconstructParameters& parameters, StageTimes& times) {
   const double h = grid.h(), variance = parameters.smoothing * h * h;
   const mesh::Topology topology = mesh::build_topology(films);
   step_in_advance(films, topology, variance / 10, h, n_phases);
   const auto midpoints = edge_midpoints(films, topology);
   const PhaseColours colours = colour_phases(grid, films, n_phases);
   const auto indicators = smoothed_indicators(grid, films, midpoints, colours, variance);
-  return potentials_of(grid.box(), colours, indicators, variance, parameters.profile_floor);
+  times.lap("indicators");
+  PhasePotentials potentials =
+      potentials_of(grid.box(), colours, indicators, variance, parameters.profile_floor);
+  times.lap("potentials");
+  return potentials;
 }
 
 /// Bubbles that smoothing has left with too few cells to be made whole again. A ball of the smallest volume
@@ -51,13 +55,13 @@ std::vector<mesh::Phase> unresolved_bubbles(const PhasePotentials& potentials, c
 /// Potentials of a mesh from which bubbles too small for the grid have been taken out.
 PhasePotentials potentials_of_resolved(const grid::Grid& grid, mesh::FilmMesh& films, state::Phases& phases,
                                        const ReconstructParameters& parameters, double smallest_volume,
-                                       std::vector<PhaseChange>& changes) {
-  remove_small_bubbles(films, phases, smallest_volume, changes);
+                                       ReconstructReport& report) {
+  remove_small_bubbles(films, phases, smallest_volume, report.changes);
   for (;;) {
-    PhasePotentials potentials = potentials_from(grid, films, phases.count(), parameters);
+    PhasePotentials potentials = potentials_from(grid, films, phases.count(), parameters, report.times);
     const auto unresolved = unresolved_bubbles(potentials, phases, smallest_volume);
     if (unresolved.empty()) return potentials;
-    for (mesh::Phase p : unresolved) remove_bubble(films, phases, p, changes);
+    for (mesh::Phase p : unresolved) remove_bubble(films, phases, p, report.changes);
   }
 }
 
@@ -67,29 +71,36 @@ Reconstruction reconstruct(const grid::Grid& grid, const mesh::FilmMesh& films, 
                            const ReconstructParameters& parameters) {
   const double h = grid.h(), edge = parameters.smallest_bubble_cells * h,
                smallest_volume = edge * edge * edge;
-  require_clearance(grid, films);
   ReconstructReport report;
+  require_clearance(grid, films);
   mesh::FilmMesh resolved = films;
   auto potentials = std::make_shared<PhasePotentials>(
-      potentials_of_resolved(grid, resolved, phases, parameters, smallest_volume, report.changes));
+      potentials_of_resolved(grid, resolved, phases, parameters, smallest_volume, report));
 
   constexpr int n_volume_rounds = 2;
   FoundFilms found;
   for (int round = 0;; ++round) {
     found = find_films(*potentials, phases, smallest_volume, report.changes);
-    report.n_refused_projections = project_vertices(*potentials, found.topology, found.films);
+    report.times.lap("contour");
+    report.n_refused_projections =
+        project_vertices(grid.communicator(), *potentials, found.topology, found.films);
+    report.times.lap("projection");
     if (!parameters.conserve_volumes || round == n_volume_rounds) break;
     raise_to_volumes(*potentials, found.films, phases, largest_volume_step * h);
+    report.times.lap("volumes");
   }
 
   mesh::FilmMesh& mesh = found.films;
   report.remesh = mesh::remesh(
       mesh, [h](const Vec3&) { return h; }, projection_onto(potentials), parameters.remesh);
+  report.times.lap("remesh");
   if (parameters.conserve_volumes)
     report.largest_volume_displacement =
         mesh::restore_volumes(mesh, phases.target_volume, 3, largest_volume_step * h);
+  report.times.lap("volumes");
   report.n_nonconforming_edges = mesh::build_topology(mesh).n_nonconforming_edges;
   require_clearance(grid, mesh);
+  report.times.lap("checks");
   return {std::move(mesh), std::move(report), std::move(potentials)};
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "spume/base/stage_times.hpp"
 #include "spume/grid/grid.hpp"
 #include "spume/mesh/film_mesh.hpp"
 #include "spume/mesh/remesh.hpp"
@@ -41,6 +42,7 @@ struct ReconstructReport {
     double volume;  ///< [m³]
   };
   std::vector<PhaseChange> changes;
+  StageTimes times;  ///< indicators, potentials, contour, projection, volumes, remesh, checks
 };
 
 /// Fields of the phases from which films can be found again; keeps what is needed to project points onto

@@ -52,7 +52,10 @@ class Collapser {
         star_(vertex_stars(work.mesh)),
         dead_triangle_(work.mesh.n_triangles(), 0),
         dead_vertex_(work.mesh.n_vertices(), 0),
-        normal_(work.mesh.n_vertices()) {}
+        normal_(work.mesh.n_vertices()),
+        mark_(work.mesh.n_vertices(), 0) {
+    for (int v = 0; v < mesh_.n_vertices(); ++v) kind_.push_back(work_.kind(v));
+  }
 
   int run() {
     int n_collapsed = 0;
@@ -72,18 +75,22 @@ class Collapser {
   }
   double edge_target(int a, int b) const { return 0.5 * (target_[a] + target_[b]); }
   bool hangs_in_three_triangles(int v) const {
-    return work_.kind(v) == VertexKind::Film && !work_.held[v] && star_[v].size() == 3;
+    return kind(v) == VertexKind::Film && !work_.held[v] && star_[v].size() == 3;
   }
+  VertexKind kind(int v) const { return kind_[v]; }
+  bool is_inner_film(int v) const { return kind(v) == VertexKind::Film && !work_.held[v]; }
   void drop_dead_from_star(int v) {
     std::erase_if(star_[v], [&](int t) { return dead_triangle_[t]; });
   }
 
   /// Fresh stars and normals; the edges to collapse, shortest first, each once.
   std::vector<ShortEdge> begin_pass();
+  void fetch_ahead(const std::vector<ShortEdge>& edges, std::size_t n) const;
   int collapse_listed(const std::vector<ShortEdge>& edges);
   bool try_collapse(int v, int w);
   bool is_allowed_by_kind(const Candidate& c, int n_shared) const;
   bool keeps_topology(const Candidate& c, int n_shared);
+  bool is_opposite_to(const Candidate& c, int s) const;
   bool keeps_shape(const Candidate& c, int triangle) const;
   bool keeps_orientation(const Candidate& c, int triangle, const Corners& before, const Corners& after) const;
   bool keeps_lengths(const Candidate& c, int triangle, const Corners& after) const;
@@ -93,17 +100,19 @@ class Collapser {
   FilmMesh& mesh_;
   const RemeshParameters& parameters_;
   std::vector<double> target_;  // at vertices
+  std::vector<VertexKind> kind_;
   std::vector<std::vector<int>> star_;
   std::vector<char> dead_triangle_, dead_vertex_;
-  std::vector<Vec3> normal_;          // of film vertices, at the start of the pass
-  std::vector<int> ring_v_, ring_w_;  // scratch of keeps_topology
+  std::vector<Vec3> normal_;  // of film vertices, at the start of the pass
+  std::vector<int> mark_;     // of vertices: scratch of keeps_topology
+  int next_mark_ = 1;
 };
 
 std::vector<ShortEdge> Collapser::begin_pass() {
   for (int v = 0; v < mesh_.n_vertices(); ++v) {
     drop_dead_from_star(v);
     normal_[v] = {};
-    if (work_.kind(v) != VertexKind::Film) continue;
+    if (kind(v) != VertexKind::Film) continue;
     for (int t : star_[v]) normal_[v] += doubled_area_normal(mesh_, t);
     normal_[v] = normalized(normal_[v]);
   }
@@ -111,8 +120,10 @@ std::vector<ShortEdge> Collapser::begin_pass() {
   for (int t = 0; t < mesh_.n_triangles(); ++t) {
     if (dead_triangle_[t]) continue;
     for (int c = 0; c < 3; ++c) {
-      const auto [low, high] =
-          std::minmax(mesh_.triangle[t].vertex[c], mesh_.triangle[t].vertex[(c + 1) % 3]);
+      const int from = mesh_.triangle[t].vertex[c], to = mesh_.triangle[t].vertex[(c + 1) % 3];
+      // An edge inside a film runs forward in one triangle and backward in the other.
+      if (to < from && (is_inner_film(from) || is_inner_film(to))) continue;
+      const auto [low, high] = std::minmax(from, to);
       const double length_squared = norm_squared(mesh_.edge(low, high));
       const double limit = parameters_.collapse_below * edge_target(low, high);
       if (length_squared < limit * limit || hangs_in_three_triangles(low) || hangs_in_three_triangles(high))
@@ -127,14 +138,31 @@ std::vector<ShortEdge> Collapser::begin_pass() {
   return edges;
 }
 
+/// Edges in the order of their lengths lie anywhere in memory; the processor is told early what comes.
+void Collapser::fetch_ahead(const std::vector<ShortEdge>& edges, std::size_t n) const {
+  constexpr std::size_t far = 12, near = 6, next = 3;
+  if (n + far < edges.size())
+    for (int v : {edges[n + far].low, edges[n + far].high}) {
+      __builtin_prefetch(&star_[v]);
+      __builtin_prefetch(&mesh_.position[v]);
+      __builtin_prefetch(&work_.phases[v]);
+    }
+  if (n + near < edges.size())
+    for (int v : {edges[n + near].low, edges[n + near].high}) __builtin_prefetch(star_[v].data());
+  if (n + next < edges.size())
+    for (int v : {edges[n + next].low, edges[n + next].high})
+      for (int t : star_[v]) __builtin_prefetch(&mesh_.triangle[t]);
+}
+
 int Collapser::collapse_listed(const std::vector<ShortEdge>& edges) {
   int n_collapsed = 0;
-  for (const ShortEdge& e : edges) {
+  for (std::size_t n = 0; n < edges.size(); ++n) {
+    fetch_ahead(edges, n);
+    const ShortEdge& e = edges[n];
     if (dead_vertex_[e.low] || dead_vertex_[e.high]) continue;
     int v = e.low, w = e.high;  // v goes: the one of lower precedence, or else a needless one
-    if (work_.kind(w) < work_.kind(v) || (work_.kind(w) == work_.kind(v) && hangs_in_three_triangles(w)))
-      std::swap(v, w);
-    if (try_collapse(v, w) || (work_.kind(v) == work_.kind(w) && try_collapse(w, v))) ++n_collapsed;
+    if (kind(w) < kind(v) || (kind(w) == kind(v) && hangs_in_three_triangles(w))) std::swap(v, w);
+    if (try_collapse(v, w) || (kind(v) == kind(w) && try_collapse(w, v))) ++n_collapsed;
   }
   return n_collapsed;
 }
@@ -156,27 +184,27 @@ bool Collapser::try_collapse(int v, int w) {
 }
 
 bool Collapser::is_allowed_by_kind(const Candidate& c, int n_shared) const {
-  const VertexKind kind = work_.kind(c.v);
-  if (kind == VertexKind::Junction || work_.held[c.v] || !work_.phases[c.w].contains(work_.phases[c.v]))
+  if (kind(c.v) == VertexKind::Junction || work_.held[c.v] || !work_.phases[c.w].contains(work_.phases[c.v]))
     return false;
-  return n_shared == (kind == VertexKind::Border ? 3 : 2);
+  return n_shared == (kind(c.v) == VertexKind::Border ? 3 : 2);
 }
 
 /// The link condition: the neighbours that v and w share are the third corners of the triangles they share,
 /// and no edge is opposite to both.
 bool Collapser::keeps_topology(const Candidate& c, int n_shared) {
-  const auto collect_ring = [&](int centre, std::vector<int>& ring) {
-    ring.clear();
+  const int of_v = next_mark_, of_both = next_mark_ + 1;
+  next_mark_ += 2;
+  const auto for_ring = [&](int centre, auto&& body) {
     for (int t : star_[centre])
       for (int x : mesh_.triangle[t].vertex)
-        if (x != c.v && x != c.w) ring.push_back(x);
-    std::sort(ring.begin(), ring.end());
-    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+        if (x != c.v && x != c.w) body(x);
   };
-  collect_ring(c.v, ring_v_);
-  collect_ring(c.w, ring_w_);
-  const auto n_common = std::count_if(ring_v_.begin(), ring_v_.end(), [&](int x) {
-    return std::binary_search(ring_w_.begin(), ring_w_.end(), x);
+  for_ring(c.v, [&](int x) { mark_[x] = of_v; });
+  int n_common = 0;
+  for_ring(c.w, [&](int x) {
+    if (mark_[x] != of_v) return;
+    mark_[x] = of_both;
+    ++n_common;
   });
   if (n_common != n_shared) return false;
 
@@ -184,19 +212,27 @@ bool Collapser::keeps_topology(const Candidate& c, int n_shared) {
     return std::count_if(star_[a].begin(), star_[a].end(), [&](int t) { return has(t, b); });
   };
   for (int t : star_[c.v]) {
-    if (has(t, c.w)) {
-      // A film one triangle wide between two borders: they would become one edge of four films.
-      for (int x : mesh_.triangle[t].vertex)
-        if (x != c.v && x != c.w && n_films(c.v, x) > 2 && n_films(c.w, x) > 2) return false;
-      continue;
-    }
-    for (int s : star_[c.w]) {
-      int n_same = 0;
-      for (int x : mesh_.triangle[t].vertex) n_same += x != c.v && has(s, x);
-      if (n_same == 2) return false;
-    }
+    if (!has(t, c.w)) continue;
+    // A film one triangle wide between two borders: they would become one edge of four films.
+    for (int x : mesh_.triangle[t].vertex)
+      if (x != c.v && x != c.w && n_films(c.v, x) > 2 && n_films(c.w, x) > 2) return false;
+  }
+  for (int s : star_[c.w]) {
+    int n_marked = 0;
+    for (int x : mesh_.triangle[s].vertex) n_marked += x != c.v && x != c.w && mark_[x] == of_both;
+    if (n_marked == 2 && is_opposite_to(c, s)) return false;
   }
   return true;
+}
+
+/// Whether the edge of triangle s opposite to w is opposite to v too, in a triangle without w.
+bool Collapser::is_opposite_to(const Candidate& c, int s) const {
+  return std::any_of(star_[c.v].begin(), star_[c.v].end(), [&](int t) {
+    if (has(t, c.w)) return false;
+    int n_same = 0;
+    for (int x : mesh_.triangle[t].vertex) n_same += x != c.v && has(s, x);
+    return n_same == 2;
+  });
 }
 
 /// Whether a triangle of v stays a decent part of its film when v moves to w.

@@ -57,6 +57,8 @@ bool flip_improves(const WorkingMesh& work, const Stars& star, const Hinge& e) {
              left = xa + work.mesh.edge(e.a, e.left), right = xa + work.mesh.edge(e.a, e.right);
   if (e.left == e.right) return false;
   if (work.kind(e.left) != VertexKind::Film && work.kind(e.right) != VertexKind::Film) return false;
+  // Two angles that are not obtuse need not be measured.
+  if (dot(xa - left, xb - left) >= 0 && dot(xa - right, xb - right) >= 0) return false;
   if (angle_at(left, xa, xb) + angle_at(right, xa, xb) < std::numbers::pi + angle_margin) return false;
   if (are_joined(work.mesh, star, e.left, e.right)) return false;
 

@@ -38,7 +38,8 @@ void for_each_bin(const BinRange& range, const std::array<int, 3>& n_bins, Visit
       for (int i = range.first[0]; i <= range.last[0]; ++i) visit((k * n_bins[1] + j) * n_bins[0] + i);
 }
 
-/// Bins at exactly `ring` steps (in the largest of the three directions) from the centre.
+/// Bins at exactly `ring` steps (in the largest of the three directions) from the centre: visit(bin, i, j,
+/// k).
 template <class Visit>
 void for_each_bin_of_ring(const std::array<int, 3>& centre, int ring, const std::array<int, 3>& n_bins,
                           Visit visit) {
@@ -49,10 +50,10 @@ void for_each_bin_of_ring(const std::array<int, 3>& centre, int ring, const std:
       const bool on_face = std::abs(k - centre[2]) == ring || std::abs(j - centre[1]) == ring;
       const int row = (k * n_bins[1] + j) * n_bins[0];
       if (on_face) {
-        for (int i = low(0); i <= high(0); ++i) visit(row + i);
+        for (int i = low(0); i <= high(0); ++i) visit(row + i, i, j, k);
       } else {
-        if (centre[0] - ring >= 0) visit(row + centre[0] - ring);
-        if (centre[0] + ring < n_bins[0]) visit(row + centre[0] + ring);
+        if (centre[0] - ring >= 0) visit(row + centre[0] - ring, centre[0] - ring, j, k);
+        if (centre[0] + ring < n_bins[0]) visit(row + centre[0] + ring, centre[0] + ring, j, k);
       }
     }
 }
@@ -164,13 +165,25 @@ void TriangleLocator::search(const Vec3& x, const std::function<bool(int triangl
     centre[axis] = std::min(static_cast<int>(inside / bin_size_), n_bins_[axis] - 1);
     last_ring = std::max({last_ring, centre[axis], n_bins_[axis] - 1 - centre[axis]});
   }
+  constexpr double hair = 1 - 1e-12;  // keeps round-off from cutting off the first of equals
+  // Squared distance of x to the bin (i, j, k): the closest point of a triangle lies in a bin that has it.
+  const auto bin_distance_squared = [&](const std::array<int, 3>& bin) {
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double along = x[axis] - origin_[axis] - bin[axis] * bin_size_;
+      const double off = std::max({-along, along - bin_size_, 0.0}) - 1e-9 * bin_size_;
+      if (off > 0) sum += off * off;
+    }
+    return sum;
+  };
   for (int ring = 0; ring <= last_ring; ++ring) {
     const double gap = std::max(ring - 1, 0) * bin_size_;
-    // The hair's breadth keeps round-off from cutting off the first of equals.
-    if ((outside_squared + gap * gap) * (1 - 1e-12) > best) break;
-    for_each_bin_of_ring(centre, ring, n_bins_, [&](int bin) {
+    if ((outside_squared + gap * gap) * hair > best) break;
+    for_each_bin_of_ring(centre, ring, n_bins_, [&](int bin, int i, int j, int k) {
+      if (bin_offset_[bin] == bin_offset_[bin + 1] || bin_distance_squared({i, j, k}) * hair > best) return;
       for (int n = bin_offset_[bin]; n < bin_offset_[bin + 1]; ++n) {
         const int t = bin_triangle_[n];
+        if (t == found.triangle && !mesh_->domain.is_periodic()) continue;
         const auto [a, b, c] = stored_corners(t);
         std::array<double, 3> weight;
         const double distance_squared = closest_point_on_triangle(x, a, b, c, weight);

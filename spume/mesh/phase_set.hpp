@@ -31,7 +31,7 @@ class PhaseSet {
     for (; n > 0 && phases_[n - 1] > p; --n) phases_[n] = phases_[n - 1];
     phases_[n] = p;
   }
-  bool contains(Phase p) const { return std::binary_search(begin(), end(), p); }
+  bool contains(Phase p) const { return std::find(begin(), end(), p) != end(); }
   bool contains(const PhaseSet& other) const {
     return std::includes(begin(), end(), other.begin(), other.end());
   }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
+#include <numeric>
 
 #include "spume/base/union_find.hpp"
 
@@ -17,17 +17,28 @@ struct Side {
   bool forward;  ///< runs from low to high
 };
 
+/// Buckets by the lower vertex, filled in the order of triangles; then each, of a few sides, is sorted by the
+/// higher vertex.
 std::vector<Side> sorted_sides(const FilmMesh& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangle.size());
-  for (int t = 0; t < mesh.n_triangles(); ++t)
-    for (int e = 0; e < 3; ++e) {
-      const int a = mesh.triangle[t].vertex[e], b = mesh.triangle[t].vertex[(e + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), t, a < b});
+  const auto for_each_side = [&](auto&& body) {
+    for (int t = 0; t < mesh.n_triangles(); ++t)
+      for (int e = 0; e < 3; ++e) {
+        const int a = mesh.triangle[t].vertex[e], b = mesh.triangle[t].vertex[(e + 1) % 3];
+        body(Side{std::min(a, b), std::max(a, b), t, a < b});
+      }
+  };
+  std::vector<int> end(mesh.n_vertices() + 1, 0);
+  for_each_side([&](const Side& side) { ++end[side.low + 1]; });
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<Side> sides(3 * mesh.triangle.size());
+  for_each_side([&](const Side& side) { sides[end[side.low]++] = side; });
+  for (int v = 0, first = 0; v < mesh.n_vertices(); first = end[v++])
+    for (int n = first + 1; n < end[v]; ++n) {
+      const Side side = sides[n];
+      int m = n;
+      for (; m > first && sides[m - 1].high > side.high; --m) sides[m] = sides[m - 1];
+      sides[m] = side;
     }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-  });
   return sides;
 }
 

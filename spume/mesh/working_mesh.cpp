@@ -43,7 +43,11 @@ EdgeTable build_edges(const FilmMesh& mesh) {
 }
 
 std::vector<std::vector<int>> vertex_stars(const FilmMesh& mesh) {
+  std::vector<int> n_triangles(mesh.n_vertices(), 0);
+  for (const FilmTriangle& t : mesh.triangle)
+    for (int v : t.vertex) ++n_triangles[v];
   std::vector<std::vector<int>> star(mesh.n_vertices());
+  for (int v = 0; v < mesh.n_vertices(); ++v) star[v].reserve(n_triangles[v] + 2);  // room for a few more
   for (int t = 0; t < mesh.n_triangles(); ++t)
     for (int v : mesh.triangle[t].vertex) star[v].push_back(t);
   return star;

@@ -85,7 +85,8 @@ void rearrange(const grid::Grid& grid, const Case& run_case, RunState& run, Witn
   const double window = equilibrium_window(run.foam.phases, materials);
   const grid::KernelCoupling kernel;
   flow::NavierStokes gas(grid, materials.gas, run_case.flow);
-  grid::VectorField force(grid);
+  flow::ForceSpreader spreader(grid);
+  grid::VectorField force(grid), film_velocity(grid);
   mesh::Topology topology = mesh::build_topology(run.foam.films);
   if (run.rearrange.reference.empty()) run.rearrange.reference = run.foam.films.position;
 
@@ -110,10 +111,11 @@ void rearrange(const grid::Grid& grid, const Case& run_case, RunState& run, Witn
 
     const auto forces =
         flow::film_forces(run.foam.films, topology, run.foam.phases.count(), materials.film.surface_tension);
-    flow::spread_film_forces(run.foam.films, forces, kernel, force);
+    spreader.spread(run.foam.films, forces, kernel, force);
     const flow::StepLimit limit = choose_step(grid, run_case, gas, run);
     gas.step(run.foam.gas, force, limit.dt);
-    interface::carry(run.foam.films, run.foam.gas.velocity, kernel, limit.dt);
+    gas.film_velocity(run.foam.gas, film_velocity);
+    interface::carry(run.foam.films, film_velocity, kernel, limit.dt);
     run.foam.time += limit.dt;
     run.rearrange.elapsed += limit.dt;
     ++run.rearrange.steps_since_reconstruction;

@@ -98,7 +98,7 @@ TEST(SurfaceTension, SpreadForceHasTheTotalAndTheMomentOfTheVertexForces) {
                         {{0, 0, 0}, {box_length, box_length, box_length}, {48, 48, 48}, {}});
   grid::VectorField density(grid);
   for (grid::Field& component : density.components) component.fill(7);  // must be overwritten
-  flow::spread_film_forces(films, forces, grid::KernelCoupling{}, density);
+  flow::ForceSpreader(grid).spread(films, forces, grid::KernelCoupling{}, density);
   const double cell = std::pow(grid.h(), 3);
   const double scale = magnitude(forces.on_vertex);
   double stretching = 0, of_vertices = 0;

@@ -39,7 +39,8 @@ Vec3 carried(int n_steps) {
     uy(i, j, l) = -std::cos(k * x.x) * std::sin(k * x.y);
   });
   mesh::FilmMesh films{{{1.3 * h, 2.1 * h, 0}}, {}, {}};
-  for (int n = 0; n < n_steps; ++n) carry(films, u, {}, 4 * h / n_steps);
+  const grid::KernelCoupling kernel{.placement = grid::Placement::Centres};
+  for (int n = 0; n < n_steps; ++n) carry(films, u, kernel, 4 * h / n_steps);
   return films.position[0];
 }
 
