@@ -122,6 +122,11 @@ class Rearrangement {
     return all;
   }
   int n_reconstructions() const { return n_reconstructions_; }
+  double reconstruction_seconds() const {
+    double sum = 0;
+    for (const auto& [stage, seconds] : reconstruction_times_.seconds()) sum += seconds;
+    return sum;
+  }
   int n_triangles() const { return foam_.films.n_triangles(); }
   double energy() const { return energy_; }
   double speed() const { return speed_; }
@@ -204,6 +209,12 @@ void run(int cells, int bubbles, int n_warm_up, int n_steps) {
               *std::min_element(poisson.begin(), poisson.end()));
   std::printf("  a step            %9.5f s = %.1f Poisson solves; %.3g cells*steps/s/core; wall %.5f s\n",
               step, step / unit, n_cells / step / world.size(), wall_time / n_steps);
+  const double reconstructing = foam.reconstruction_seconds() / unit;
+  std::printf("  without reconstruction %.1f Poisson solves", (total / unit - reconstructing) / n_steps);
+  if (foam.n_reconstructions() > 0)
+    std::printf("; one reconstruction %.0f, every %.1f steps here", reconstructing / foam.n_reconstructions(),
+                static_cast<double>(n_steps) / foam.n_reconstructions());
+  std::printf("\n");
   if (memory > memory_before)
     std::printf("  peak memory       %9.0f bytes a cell, the program's own %.0f MB included\n",
                 memory / n_cells, memory_before / 1e6);

@@ -10,8 +10,8 @@
 
 namespace spume::grid {
 
-/// A regular grid of cubic cells, cut into slabs along z, one slab a rank: a PETSc DMDA whose ownership
-/// ranges are those of FFTW-MPI (block size ⌈n_z/ranks⌉). Cell (i, j, k) has its centre at lower + (i+½, j+½,
+/// A regular grid of cubic cells, cut into slabs along z, one slab a rank, as FFTW-MPI cuts them (block size
+/// ⌈n_z/ranks⌉). Cell (i, j, k) has its centre at lower + (i+½, j+½,
 /// k+½) h. Fields keep a reference to their grid, so a grid neither moves nor is copied.
 class Grid {
  public:
@@ -32,7 +32,7 @@ class Grid {
   Vec3 centre(int i, int j, int k) const { return box_.lower + h_ * Vec3{i + 0.5, j + 0.5, k + 0.5}; }
   const parallel::Communicator& communicator() const { return communicator_; }
 
-  /// The PETSc and FFTW side (DMDA, transforms); only grid/ sees its definition.
+  /// The FFTW side (transforms); only grid/ sees its definition.
   struct Implementation;
   Implementation& implementation() const { return *implementation_; }
 
