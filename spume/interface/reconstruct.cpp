@@ -68,11 +68,20 @@ Reconstruction reconstruct(const grid::Grid& grid, const mesh::FilmMesh& films, 
   const double h = grid.h(), edge = parameters.smallest_bubble_cells * h,
                smallest_volume = edge * edge * edge;
   require_clearance(grid, films);
-  ReconstructReport report;
+  std::vector<PhaseChange> changes;
   mesh::FilmMesh resolved = films;
   auto potentials = std::make_shared<PhasePotentials>(
-      potentials_of_resolved(grid, resolved, phases, parameters, smallest_volume, report.changes));
+      potentials_of_resolved(grid, resolved, phases, parameters, smallest_volume, changes));
+  return extract_films(grid, std::move(potentials), phases, parameters, std::move(changes));
+}
 
+Reconstruction extract_films(const grid::Grid& grid, std::shared_ptr<PhasePotentials> potentials,
+                             state::Phases& phases, const ReconstructParameters& parameters,
+                             std::vector<PhaseChange> changes) {
+  const double h = grid.h(), edge = parameters.smallest_bubble_cells * h,
+               smallest_volume = edge * edge * edge;
+  ReconstructReport report;
+  report.changes = std::move(changes);
   constexpr int n_volume_rounds = 2;
   FoundFilms found;
   for (int round = 0;; ++round) {

@@ -60,6 +60,13 @@ struct Reconstruction {
 Reconstruction reconstruct(const grid::Grid& grid, const mesh::FilmMesh& films, state::Phases& phases,
                            const ReconstructParameters& parameters);
 
+/// The films of given potentials, which are the second half of reconstruct(): single pieces, contour,
+/// projection, volumes, coarsening. The potentials are changed where pieces are separated, and by the
+/// constants that give bubbles their volumes. `changes` are those that came before. Throws as reconstruct().
+Reconstruction extract_films(const grid::Grid& grid, std::shared_ptr<PhasePotentials> potentials,
+                             state::Phases& phases, const ReconstructParameters& parameters,
+                             std::vector<ReconstructReport::PhaseChange> changes);
+
 /// Films from functions instead of from a mesh: the Voronoi interface of `potential(phase, x)`, phases 0 …
 /// n−1 (where two are equal and largest; each smooth and of the size of a distance near its films). For
 /// initial foams. The result is already reconstructed twice, which replaces the creases of the functions by

@@ -15,6 +15,7 @@
 #include "spume/rupture/criterion.hpp"
 #include "spume/state/materials.hpp"
 #include "spume/transport/transfer.hpp"
+#include "spume/viim/film_evolution.hpp"
 
 namespace spume::simulation {
 
@@ -51,6 +52,7 @@ struct RearrangementParameters {
   int reconstruction_interval = 50;        ///< steps, while the films move
   double reconstruction_displacement = 1;  ///< of a vertex since the last reconstruction [h]
   bool conserve_volumes = true;
+  enum class Interface { Mesh, Viim } interface = Interface::Mesh;
   enum class Dynamics { Gas, Quasistatic } dynamics = Dynamics::Gas;
   double capillary_factor = 0.8;  ///< C in Δt ≤ C sqrt(ρ h³/2σ)
 };
@@ -88,6 +90,7 @@ struct Case {
 
   flow::FlowParameters flow;
   interface::ReconstructParameters reconstruct;
+  viim::Parameters viim;
   transport::TransportParameters transport;
   meshing::MeshingParameters meshing;
 };

@@ -1,0 +1,155 @@
+#include "spume/viim/closest_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "spume/interface/cell_box.hpp"
+#include "spume/mesh/locate.hpp"
+
+namespace spume::viim {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// The triangles at each vertex.
+struct Stars {
+  std::vector<int> offset, triangle;
+
+  explicit Stars(const mesh::FilmMesh& surface) : offset(surface.n_vertices() + 1, 0) {
+    for (const auto& t : surface.triangle)
+      for (int v : t.vertex) ++offset[v + 1];
+    for (std::size_t v = 1; v < offset.size(); ++v) offset[v] += offset[v - 1];
+    triangle.resize(offset.back());
+    std::vector<int> end(offset.begin(), offset.end() - 1);
+    for (int t = 0; t < surface.n_triangles(); ++t)
+      for (int v : surface.triangle[t].vertex) triangle[end[v]++] = t;
+  }
+};
+
+class Search {
+ public:
+  Search(const mesh::FilmMesh& surface, const grid::Box& box, double reach)
+      : surface_(surface),
+        box_(box),
+        h_(box.spacing()),
+        whole_(interface::all_cells(box.cells)),
+        largest_(reach * reach),
+        nearest_(whole_.size(), -1),
+        squared_(whole_.size(), infinite) {}
+
+  std::vector<ClosestPoint> run() {
+    seed();
+    propagate();
+    return walk();
+  }
+
+ private:
+  Vec3 centre(int i, int j, int k) const { return box_.lower + h_ * Vec3{i + 0.5, j + 0.5, k + 0.5}; }
+
+  double squared_distance(const Vec3& x, int triangle, std::array<double, 3>& weight) const {
+    const auto& v = surface_.triangle[triangle].vertex;
+    return mesh::closest_point_on_triangle(x, surface_.position[v[0]], surface_.position[v[1]],
+                                           surface_.position[v[2]], weight);
+  }
+
+  bool improve(int i, int j, int k, int triangle) {
+    const std::size_t cell = whole_.offset(i, j, k);
+    if (triangle == nearest_[cell]) return false;
+    std::array<double, 3> weight;
+    const double d2 = squared_distance(centre(i, j, k), triangle, weight);
+    if (d2 > largest_ || !(d2 < squared_[cell])) return false;
+    nearest_[cell] = triangle;
+    squared_[cell] = d2;
+    return true;
+  }
+
+  /// Every triangle is tried by the cells within one cell of its bounding box.
+  void seed() {
+    for (int t = 0; t < surface_.n_triangles(); ++t) {
+      interface::CellBox cells;
+      for (int d = 0; d < 3; ++d) {
+        double low = infinite, high = -infinite;
+        for (int v : surface_.triangle[t].vertex) {
+          const double place = (surface_.position[v][d] - box_.lower[d]) / h_ - 0.5;
+          low = std::min(low, place);
+          high = std::max(high, place);
+        }
+        cells.begin[d] = std::max(0, static_cast<int>(std::ceil(low - 1)));
+        cells.end[d] = std::min(box_.cells[d], static_cast<int>(std::floor(high + 1)) + 1);
+      }
+      interface::for_each_cell(cells, [&](int i, int j, int k) { improve(i, j, k, t); });
+    }
+  }
+
+  void propagate() {
+    std::vector<Index3> front, next;
+    std::vector<bool> queued(whole_.size(), false);
+    interface::for_each_cell(whole_, [&](int i, int j, int k) {
+      if (nearest_[whole_.offset(i, j, k)] >= 0) front.push_back({i, j, k});
+    });
+    for (; !front.empty(); std::swap(front, next)) {
+      next.clear();
+      for (const Index3& c : front) queued[whole_.offset(c.i, c.j, c.k)] = false;
+      for (const Index3& c : front) {
+        const int triangle = nearest_[whole_.offset(c.i, c.j, c.k)];
+        for (int axis = 0; axis < 3; ++axis)
+          for (int step : {-1, 1}) {
+            Index3 n = c;
+            n[axis] += step;
+            if (!whole_.contains(n.i, n.j, n.k) || !improve(n.i, n.j, n.k, triangle)) continue;
+            const std::size_t cell = whole_.offset(n.i, n.j, n.k);
+            if (!queued[cell]) next.push_back(n);
+            queued[cell] = true;
+          }
+      }
+    }
+  }
+
+  std::vector<ClosestPoint> walk() const {
+    const Stars stars(surface_);
+    std::vector<ClosestPoint> found;
+    interface::for_each_cell(whole_, [&](int i, int j, int k) {
+      const std::size_t cell = whole_.offset(i, j, k);
+      if (nearest_[cell] < 0) return;
+      ClosestPoint p{cell, centre(i, j, k), nearest_[cell], {}, {}, 0};
+      double best = squared_distance(p.centre, p.triangle, p.weight);
+      for (bool better = true; better;) {
+        better = false;
+        const auto vertices = surface_.triangle[p.triangle].vertex;
+        for (int v : vertices)
+          for (int n = stars.offset[v]; n < stars.offset[v + 1]; ++n) {
+            std::array<double, 3> weight;
+            const double d2 = squared_distance(p.centre, stars.triangle[n], weight);
+            if (!(d2 < best)) continue;
+            best = d2;
+            p.triangle = stars.triangle[n];
+            p.weight = weight;
+            better = true;
+          }
+      }
+      const auto& v = surface_.triangle[p.triangle].vertex;
+      for (int c = 0; c < 3; ++c) p.point += p.weight[c] * surface_.position[v[c]];
+      p.distance = std::sqrt(best);
+      found.push_back(p);
+    });
+    return found;
+  }
+
+  const mesh::FilmMesh& surface_;
+  grid::Box box_;
+  double h_;
+  interface::CellBox whole_;
+  double largest_;
+  std::vector<int> nearest_;
+  std::vector<double> squared_;
+};
+
+}  // namespace
+
+std::vector<ClosestPoint> closest_points(const mesh::FilmMesh& surface, const grid::Box& box, double reach) {
+  return Search(surface, box, reach).run();
+}
+
+}  // namespace spume::viim

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "spume/grid/box.hpp"
+#include "spume/mesh/film_mesh.hpp"
+
+namespace spume::viim {
+
+/// The point of a triangulated surface that is closest to the centre of a cell.
+struct ClosestPoint {
+  std::size_t cell;  ///< i fastest, then j, k
+  Vec3 centre;       ///< of the cell [m]
+  int triangle;
+  std::array<double, 3> weight;  ///< barycentric, in the triangle
+  Vec3 point;                    ///< [m]
+  double distance;               ///< from the centre [m]
+};
+
+/// Closest points of all cells within `reach` [m] of the surface, in the order of cells. Cells around each
+/// triangle try it; from there triangles pass from cell to neighbouring cell as long as they are closer than
+/// what was found; at last every cell walks over the triangles around its own one down to the closest.
+/// Exact unless two pieces of surface are nearly equally far.
+std::vector<ClosestPoint> closest_points(const mesh::FilmMesh& surface, const grid::Box& box, double reach);
+
+}  // namespace spume::viim
