@@ -15,7 +15,6 @@
 #include "spume/rupture/criterion.hpp"
 #include "spume/state/materials.hpp"
 #include "spume/transport/transfer.hpp"
-#include "spume/viim/film_evolution.hpp"
 
 namespace spume::simulation {
 
@@ -53,6 +52,7 @@ struct RearrangementParameters {
   double reconstruction_displacement = 1;  ///< of a vertex since the last reconstruction [h]
   bool conserve_volumes = true;
   enum class Interface { Mesh, Viim } interface = Interface::Mesh;
+  double epsilon = 1.5;  ///< of the Voronoi implicit interface method [h]
   enum class Dynamics { Gas, Quasistatic } dynamics = Dynamics::Gas;
   double capillary_factor = 0.8;  ///< C in Δt ≤ C sqrt(ρ h³/2σ)
 };
@@ -90,7 +90,6 @@ struct Case {
 
   flow::FlowParameters flow;
   interface::ReconstructParameters reconstruct;
-  viim::Parameters viim;
   transport::TransportParameters transport;
   meshing::MeshingParameters meshing;
 };

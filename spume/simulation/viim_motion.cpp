@@ -12,11 +12,14 @@ namespace spume::simulation {
 ViimMotion::ViimMotion(const grid::Grid& grid, const Case& run_case, const state::Foam& foam)
     : case_(run_case),
       h_(grid.h()),
-      evolution_(grid, run_case.viim, foam.films,
-                 io::rasterize_phases(foam.films, foam.phases.count(), grid.box())) {}
+      evolution_(grid,
+                 {.epsilon = run_case.rearrangement.epsilon,
+                  .rebuild_interval = run_case.rearrangement.reconstruction_interval,
+                  .rebuild_displacement = run_case.rearrangement.reconstruction_displacement},
+                 foam.films, io::rasterize_phases(foam.films, foam.phases.count(), grid.box())) {}
 
-double ViimMotion::move(RunState& run, const grid::KernelCoupling& kernel, double dt, mesh::Topology& topology,
-                        Witness& witness) {
+double ViimMotion::move(RunState& run, const grid::KernelCoupling& kernel, double dt,
+                        mesh::Topology& topology, Witness& witness) {
   state::Foam& foam = run.foam;
   auto reconstruction =
       evolution_.move(foam.films, foam.phases, foam.gas.velocity, kernel, dt, case_.reconstruct);

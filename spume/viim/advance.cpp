@@ -13,9 +13,11 @@ namespace {
 double weno(const std::array<double, 5>& d) {
   constexpr double epsilon = 1e-6;  // of a distance, whose derivatives are of order one
   const auto square = [](double x) { return x * x; };
-  const double rough0 = 13.0 / 12 * square(d[0] - 2 * d[1] + d[2]) + 0.25 * square(d[0] - 4 * d[1] + 3 * d[2]),
+  const double rough0 =
+                   13.0 / 12 * square(d[0] - 2 * d[1] + d[2]) + 0.25 * square(d[0] - 4 * d[1] + 3 * d[2]),
                rough1 = 13.0 / 12 * square(d[1] - 2 * d[2] + d[3]) + 0.25 * square(d[1] - d[3]),
-               rough2 = 13.0 / 12 * square(d[2] - 2 * d[3] + d[4]) + 0.25 * square(3 * d[2] - 4 * d[3] + d[4]);
+               rough2 =
+                   13.0 / 12 * square(d[2] - 2 * d[3] + d[4]) + 0.25 * square(3 * d[2] - 4 * d[3] + d[4]);
   const double w0 = 0.1 / square(epsilon + rough0), w1 = 0.6 / square(epsilon + rough1),
                w2 = 0.3 / square(epsilon + rough2);
   return (w0 * (2 * d[0] - 7 * d[1] + 11 * d[2]) + w1 * (-d[1] + 5 * d[2] + 2 * d[3]) +
@@ -72,15 +74,16 @@ void advance(DistanceField& field, std::span<const ClosestPoint> band, std::span
              double dt) {
   expects(band.size() == velocity.size(), "every cell of the band has a velocity");
   const Upwind upwind(field);
-  std::vector<double> middle(field.distance);
-  for (std::size_t n = 0; n < band.size(); ++n)
-    middle[band[n].cell] -= dt * upwind(field.distance, band[n].cell, velocity[n]);
-  std::vector<double> after(field.distance);
-  for (std::size_t n = 0; n < band.size(); ++n) {
-    const std::size_t c = band[n].cell;
-    after[c] = 0.5 * (field.distance[c] + middle[c] - dt * upwind(middle, c, velocity[n]));
+  std::vector<double> from(field.distance), to(field.distance);
+  for (const double share : {1.0, 0.25, 2.0 / 3}) {  // of a new Euler step in each of the three averages
+    for (std::size_t n = 0; n < band.size(); ++n) {
+      const std::size_t c = band[n].cell;
+      const double euler = from[c] - dt * upwind(from, c, velocity[n]);
+      to[c] = (1 - share) * field.distance[c] + share * euler;
+    }
+    std::swap(from, to);
   }
-  field.distance = std::move(after);
+  field.distance = std::move(from);
 }
 
 }  // namespace spume::viim

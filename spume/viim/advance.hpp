@@ -21,7 +21,8 @@ std::vector<Vec3> extension_velocity(std::span<const ClosestPoint> band, const g
 ///
 /// Upwind differences of fifth order that avoid creases (WENO: Jiang and Peng, SIAM J. Sci. Comput. 21 (2000)
 /// 2126), of the signed function of the cell's own phase, so that no stencil sees φ turn up again behind a
-/// film; Heun's method, which is TVD, in time. Stable for Courant numbers Σ|u_d| Δt/h up to 1.
+/// film; the TVD Runge–Kutta method of third order in time (Heun's is unstable with these differences).
+/// Stable for Courant numbers Σ|u_d| Δt/h up to 1.
 void advance(DistanceField& field, std::span<const ClosestPoint> band, std::span<const Vec3> velocity,
              double dt);
 

@@ -65,7 +65,8 @@ class Search {
     return true;
   }
 
-  /// Every triangle is tried by the cells within one cell of its bounding box.
+  /// Every triangle is tried by the cells within half a cell of its bounding box, of which there is one at
+  /// least.
   void seed() {
     for (int t = 0; t < surface_.n_triangles(); ++t) {
       interface::CellBox cells;
@@ -76,8 +77,8 @@ class Search {
           low = std::min(low, place);
           high = std::max(high, place);
         }
-        cells.begin[d] = std::max(0, static_cast<int>(std::ceil(low - 1)));
-        cells.end[d] = std::min(box_.cells[d], static_cast<int>(std::floor(high + 1)) + 1);
+        cells.begin[d] = std::max(0, static_cast<int>(std::ceil(low - 0.5)));
+        cells.end[d] = std::min(box_.cells[d], static_cast<int>(std::floor(high + 0.5)) + 1);
       }
       interface::for_each_cell(cells, [&](int i, int j, int k) { improve(i, j, k, t); });
     }
@@ -94,15 +95,13 @@ class Search {
       for (const Index3& c : front) queued[whole_.offset(c.i, c.j, c.k)] = false;
       for (const Index3& c : front) {
         const int triangle = nearest_[whole_.offset(c.i, c.j, c.k)];
-        for (int axis = 0; axis < 3; ++axis)
-          for (int step : {-1, 1}) {
-            Index3 n = c;
-            n[axis] += step;
-            if (!whole_.contains(n.i, n.j, n.k) || !improve(n.i, n.j, n.k, triangle)) continue;
-            const std::size_t cell = whole_.offset(n.i, n.j, n.k);
-            if (!queued[cell]) next.push_back(n);
-            queued[cell] = true;
-          }
+        const interface::CellBox around = interface::grown({c, {c.i + 1, c.j + 1, c.k + 1}}, 1, box_.cells);
+        interface::for_each_cell(around, [&](int i, int j, int k) {
+          if (!improve(i, j, k, triangle)) return;
+          const std::size_t cell = whole_.offset(i, j, k);
+          if (!queued[cell]) next.push_back({i, j, k});
+          queued[cell] = true;
+        });
       }
     }
   }
@@ -117,8 +116,11 @@ class Search {
       double best = squared_distance(p.centre, p.triangle, p.weight);
       for (bool better = true; better;) {
         better = false;
+        if (*std::min_element(p.weight.begin(), p.weight.end()) > 0) break;
         const auto vertices = surface_.triangle[p.triangle].vertex;
-        for (int v : vertices)
+        for (int corner = 0; corner < 3 && !better; ++corner) {
+          if (p.weight[corner] == 0) continue;
+          const int v = vertices[corner];
           for (int n = stars.offset[v]; n < stars.offset[v + 1]; ++n) {
             std::array<double, 3> weight;
             const double d2 = squared_distance(p.centre, stars.triangle[n], weight);
@@ -128,6 +130,7 @@ class Search {
             p.weight = weight;
             better = true;
           }
+        }
       }
       const auto& v = surface_.triangle[p.triangle].vertex;
       for (int c = 0; c < 3; ++c) p.point += p.weight[c] * surface_.position[v[c]];

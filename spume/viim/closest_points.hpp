@@ -21,8 +21,8 @@ struct ClosestPoint {
 
 /// Closest points of all cells within `reach` [m] of the surface, in the order of cells. Cells around each
 /// triangle try it; from there triangles pass from cell to neighbouring cell as long as they are closer than
-/// what was found; at last every cell walks over the triangles around its own one down to the closest.
-/// Exact unless two pieces of surface are nearly equally far.
+/// what was found; at last every cell whose point lies on an edge walks over the triangles around it down to
+/// the closest. Where two points are nearly equally far, either may be given.
 std::vector<ClosestPoint> closest_points(const mesh::FilmMesh& surface, const grid::Box& box, double reach);
 
 }  // namespace spume::viim

@@ -44,9 +44,8 @@ double distance_to_film(const interface::PhasePotentials& potentials, const mesh
                         const ClosestPoint& p) {
   const auto *a = potentials.find(triangle.phase_a), *b = potentials.find(triangle.phase_b);
   if (!a || !b) return p.distance;
-  const LocalCubic cubic(potentials.box(), p.point, [&](int i, int j, int k) {
-    return 0.5 * (a->at(i, j, k) - b->at(i, j, k));
-  });
+  const LocalCubic cubic(potentials.box(), p.point,
+                         [&](int i, int j, int k) { return 0.5 * (a->at(i, j, k) - b->at(i, j, k)); });
   const auto foot = cubic.closest_zero(p.centre, p.point);
   return foot ? norm(p.centre - *foot) : p.distance;
 }

@@ -13,9 +13,9 @@
 namespace spume::viim {
 
 struct Parameters {
-  double epsilon = 1.5;         ///< ε, the level whose Voronoi interface is taken [h]
-  int rebuild_interval = 10;    ///< k_reinit, steps between rebuilds of φ
-  double rebuild_displacement = 0.5;  ///< φ is rebuilt before a film has moved farther than this [h]
+  double epsilon = 1.5;             ///< ε, the level whose Voronoi interface is taken [h]
+  int rebuild_interval = 50;        ///< k_reinit, steps between rebuilds of φ, at most
+  double rebuild_displacement = 1;  ///< φ is rebuilt when a film may have moved as far [h]
 };
 
 /// The Voronoi Implicit Interface Method of the paper (Sec. 3.1): φ and χ are what moves. Each step φ is
@@ -29,8 +29,8 @@ class FilmEvolution {
                 std::vector<mesh::Phase> phase_of_cell);
 
   /// One step of dt [s] with the gas. `films` are those of the last step (or of the start). Changes of
-  /// `phases` are as of interface::reconstruct(); a bubble without a cell of φ > ε is lost. Collective; throws
-  /// NumericalError when a film comes within four cells of the edge of the box.
+  /// `phases` are as of interface::reconstruct(); a bubble without a cell of φ > ε is lost. Collective;
+  /// throws NumericalError when a film comes within four cells of the edge of the box.
   interface::Reconstruction move(const mesh::FilmMesh& films, state::Phases& phases,
                                  const grid::VectorField& velocity, const grid::KernelCoupling& kernel,
                                  double dt, const interface::ReconstructParameters& parameters);
@@ -45,7 +45,7 @@ class FilmEvolution {
   const grid::Grid& grid_;
   Parameters parameters_;
   DistanceField field_;
-  int steps_ = 0;          ///< since φ was rebuilt
+  int steps_ = 0;            ///< since φ was rebuilt
   double displacement_ = 0;  ///< of films since then, at most [m]
 };
 

@@ -25,8 +25,7 @@ Weights weights(double t) {
 
 LocalCubic::LocalCubic(const grid::Box& box, const Vec3& x, const Values& value)
     : lower_(box.lower), h_(box.spacing()) {
-  for (int d = 0; d < 3; ++d)
-    corner_[d] = static_cast<int>(std::floor((x[d] - lower_[d]) / h_ - 0.5)) - 1;
+  for (int d = 0; d < 3; ++d) corner_[d] = static_cast<int>(std::floor((x[d] - lower_[d]) / h_ - 0.5)) - 1;
   for (int k = 0; k < 4; ++k)
     for (int j = 0; j < 4; ++j)
       for (int i = 0; i < 4; ++i)
@@ -87,13 +86,14 @@ std::optional<Vec3> LocalCubic::closest_zero(const Vec3& x, const Vec3& start) c
     const Vec3 residual = y - x + lambda * g;
     Eigen::Matrix4d matrix;
     const double l = lambda;
-    matrix << 1 + l * s[0], l * s[3], l * s[5], g.x, l * s[3], 1 + l * s[1], l * s[4], g.y, l * s[5], l * s[4],
-        1 + l * s[2], g.z, g.x, g.y, g.z, 0;
+    matrix << 1 + l * s[0], l * s[3], l * s[5], g.x, l * s[3], 1 + l * s[1], l * s[4], g.y, l * s[5],
+        l * s[4], 1 + l * s[2], g.z, g.x, g.y, g.z, 0;
     const Eigen::Vector4d step =
         matrix.partialPivLu().solve(-Eigen::Vector4d(residual.x, residual.y, residual.z, p.value));
     if (!step.allFinite()) return std::nullopt;
     Vec3 move{step[0], step[1], step[2]};
-    const double length = norm(move), shortening = std::min(1.0, longest_step * h_ / std::max(length, 1e-300));
+    const double length = norm(move),
+                 shortening = std::min(1.0, longest_step * h_ / std::max(length, 1e-300));
     y += shortening * move;
     lambda += shortening * step[3];
     if (norm_squared(y - start) > reach * reach * h_ * h_) return std::nullopt;

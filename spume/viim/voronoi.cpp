@@ -21,7 +21,8 @@ constexpr double beyond_films = 4;  // cells: as far as tricubics around a film 
 grid::Box box_of(const grid::Box& whole, const CellBox& cells) {
   const double h = whole.spacing();
   const auto corner = [&](const Index3& c) {
-    return whole.lower + h * Vec3{static_cast<double>(c.i), static_cast<double>(c.j), static_cast<double>(c.k)};
+    return whole.lower +
+           h * Vec3{static_cast<double>(c.i), static_cast<double>(c.j), static_cast<double>(c.k)};
   };
   return {corner(cells.begin),
           corner(cells.end),
@@ -87,8 +88,8 @@ interface::PhasePotentials voronoi_potentials(const DistanceField& field, double
   interface::PhasePotentials potentials(field.box);
   for (mesh::Phase p = 0; p < n_phases; ++p) {
     if (cores[p].empty()) continue;
-    const CellBox cells = p == 0 ? interface::all_cells(field.box.cells)
-                                 : interface::grown(cores[p], layers, field.box.cells);
+    const CellBox cells =
+        p == 0 ? interface::all_cells(field.box.cells) : interface::grown(cores[p], layers, field.box.cells);
     potentials.set(potential_of(field, p, cells, epsilon));
   }
   return potentials;

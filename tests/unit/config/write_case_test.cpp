@@ -58,8 +58,7 @@ reconstruction_interval = 20
 reconstruction_displacement = 0.5
 conserve_volumes = false
 interface = "viim"
-viim_epsilon = 2
-viim_interval = 7
+epsilon = 2
 dynamics = "quasistatic"
 [drainage]
 max_time = 33

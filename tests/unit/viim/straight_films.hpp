@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -9,16 +9,17 @@
 
 namespace spume::viim::testing {
 
-inline constexpr double h = 1e-4;  ///< cell of all tests [m]
+inline constexpr double h = 1e-4;  ///< cell of all tests [m], unless they refine
+inline constexpr double degrees = std::numbers::pi / 180;
 
-inline grid::Box cube_box(int cells) {
-  return {{-0.5 * cells * h, -0.5 * cells * h, -0.5 * cells * h},
-          {0.5 * cells * h, 0.5 * cells * h, 0.5 * cells * h},
-          {cells, cells, cells}};
+/// A box around the origin with its edges `half_width` [m] away.
+inline grid::Box cube_box(double half_width, int cells) {
+  return {
+      {-half_width, -half_width, -half_width}, {half_width, half_width, half_width}, {cells, cells, cells}};
 }
 
-/// Half-planes that meet in a line parallel to z through `junction`, at increasing angles from the x axis;
-/// phase n lies between the angles n and n + 1.
+/// Half-planes that meet in a line parallel to z through `junction`, at increasing angles [rad] from the x
+/// axis; phase n lies between the angles n and n + 1.
 struct StraightFilms {
   Vec3 junction;
   std::vector<double> angle;
@@ -41,13 +42,13 @@ struct StraightFilms {
   }
 };
 
-/// φ and χ of functions of a point, φ as far as the band goes.
+/// φ and χ of functions of a point.
 template <class Distance, class Phase>
 DistanceField sampled(const grid::Box& box, Distance distance, Phase phase) {
   DistanceField field{box, {}, {}};
   interface::for_each_cell(interface::all_cells(box.cells), [&](int i, int j, int k) {
     const Vec3 x = box.lower + box.spacing() * Vec3{i + 0.5, j + 0.5, k + 0.5};
-    field.distance.push_back(std::min(distance(x), band_cells * box.spacing()));
+    field.distance.push_back(distance(x));
     field.phase.push_back(phase(x));
   });
   return field;
@@ -56,6 +57,18 @@ DistanceField sampled(const grid::Box& box, Distance distance, Phase phase) {
 inline DistanceField sampled(const grid::Box& box, const StraightFilms& films) {
   return sampled(
       box, [&](const Vec3& x) { return films.distance(x); }, [&](const Vec3& x) { return films.phase(x); });
+}
+
+/// A ball of phase 1, φ up to `far` [m].
+inline DistanceField sampled_ball(const grid::Box& box, const Vec3& centre, double radius, double far) {
+  return sampled(
+      box, [&](const Vec3& x) { return std::min(far, std::abs(radius - norm(x - centre))); },
+      [&](const Vec3& x) { return norm(x - centre) < radius ? 1 : 0; });
+}
+
+inline Vec3 centre_of_cell(const grid::Box& box, std::size_t cell) {
+  const std::size_t nx = box.cells.i, ny = box.cells.j;
+  return box.lower + box.spacing() * Vec3{cell % nx + 0.5, cell / nx % ny + 0.5, cell / (nx * ny) + 0.5};
 }
 
 }  // namespace spume::viim::testing
