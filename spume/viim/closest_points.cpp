@@ -28,16 +28,37 @@ struct Stars {
   }
 };
 
+/// Holds a triangle.
+struct Ball {
+  Vec3 centre;
+  double radius;
+};
+
+std::vector<Ball> balls_around(const mesh::FilmMesh& surface) {
+  std::vector<Ball> balls;
+  balls.reserve(surface.triangle.size());
+  for (const auto& t : surface.triangle) {
+    Ball ball{{}, 0};
+    for (int v : t.vertex) ball.centre += surface.position[v] / 3;
+    for (int v : t.vertex) ball.radius = std::max(ball.radius, norm(surface.position[v] - ball.centre));
+    balls.push_back(ball);
+  }
+  return balls;
+}
+
 class Search {
  public:
-  Search(const mesh::FilmMesh& surface, const grid::Box& box, double reach)
+  Search(const mesh::FilmMesh& surface, const grid::Box& box, double reach, const std::vector<bool>& wanted)
       : surface_(surface),
         box_(box),
         h_(box.spacing()),
         whole_(interface::all_cells(box.cells)),
-        largest_(reach * reach),
+        ball_(balls_around(surface)),
         nearest_(whole_.size(), -1),
-        squared_(whole_.size(), infinite) {}
+        squared_(whole_.size(), std::nextafter(reach * reach, infinite)) {
+    for (std::size_t c = 0; c < wanted.size(); ++c)
+      if (!wanted[c]) squared_[c] = -1;  // nothing is nearer
+  }
 
   std::vector<ClosestPoint> run() {
     seed();
@@ -56,10 +77,14 @@ class Search {
 
   bool improve(int i, int j, int k, int triangle) {
     const std::size_t cell = whole_.offset(i, j, k);
-    if (triangle == nearest_[cell]) return false;
+    if (triangle == nearest_[cell] || squared_[cell] < 0) return false;
+    const Vec3 x = centre(i, j, k);
+    const Ball& ball = ball_[triangle];
+    const double beyond_ball = std::sqrt(squared_[cell]) + ball.radius;
+    if (norm_squared(x - ball.centre) > beyond_ball * beyond_ball) return false;
     std::array<double, 3> weight;
-    const double d2 = squared_distance(centre(i, j, k), triangle, weight);
-    if (d2 > largest_ || !(d2 < squared_[cell])) return false;
+    const double d2 = squared_distance(x, triangle, weight);
+    if (!(d2 < squared_[cell])) return false;
     nearest_[cell] = triangle;
     squared_[cell] = d2;
     return true;
@@ -144,15 +169,16 @@ class Search {
   grid::Box box_;
   double h_;
   interface::CellBox whole_;
-  double largest_;
+  std::vector<Ball> ball_;
   std::vector<int> nearest_;
-  std::vector<double> squared_;
+  std::vector<double> squared_;  ///< distance below which a triangle is taken
 };
 
 }  // namespace
 
-std::vector<ClosestPoint> closest_points(const mesh::FilmMesh& surface, const grid::Box& box, double reach) {
-  return Search(surface, box, reach).run();
+std::vector<ClosestPoint> closest_points(const mesh::FilmMesh& surface, const grid::Box& box, double reach,
+                                         const std::vector<bool>& wanted) {
+  return Search(surface, box, reach, wanted).run();
 }
 
 }  // namespace spume::viim

@@ -16,7 +16,7 @@ namespace {
 using interface::CellBox;
 using interface::PhaseField;
 
-constexpr double beyond_films = 4;  // cells: as far as tricubics around a film reach
+constexpr double beyond_films = 3.5;  // cells: as far as tricubics around a film reach
 
 grid::Box box_of(const grid::Box& whole, const CellBox& cells) {
   const double h = whole.spacing();
@@ -57,10 +57,16 @@ PhaseField potential_of(const DistanceField& field, mesh::Phase phase, const Cel
     return excess[local.offset(inside(i, box.cells.i), inside(j, box.cells.j), inside(k, box.cells.k))];
   };
 
+  // Deep in the core φ itself will do.
   PhaseField potential{phase, cells, epsilon - reach, {}};
   potential.value.reserve(excess.size());
-  for (double value : excess) potential.value.push_back(value > 0 ? epsilon + reach : epsilon - reach);
-  for (const ClosestPoint& p : closest_points(level_surface(box, excess), box, reach)) {
+  std::vector<bool> wanted;
+  wanted.reserve(excess.size());
+  for (double value : excess) {
+    potential.value.push_back(value > 0 ? epsilon + value : epsilon - reach);
+    wanted.push_back(value < beyond_films * field.box.spacing() - epsilon);
+  }
+  for (const ClosestPoint& p : closest_points(level_surface(box, excess), box, reach, wanted)) {
     const auto foot = LocalCubic(box, p.point, excess_at).closest_zero(p.centre, p.point);
     const double d = foot ? norm(p.centre - *foot) : p.distance;
     potential.value[p.cell] = epsilon + (excess[p.cell] > 0 ? d : -d);
