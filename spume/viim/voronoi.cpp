@@ -47,7 +47,7 @@ mesh::FilmMesh level_surface(const grid::Box& box, const std::vector<double>& ex
 
 /// ψ of one phase on a block of cells.
 PhaseField potential_of(const DistanceField& field, mesh::Phase phase, const CellBox& cells, double epsilon) {
-  const double reach = epsilon + beyond_films * field.box.spacing();
+  const double h = field.box.spacing(), reach = epsilon + beyond_films * h;
   const grid::Box box = box_of(field.box, cells);
   std::vector<double> excess = signed_distance(field, phase, cells);
   for (double& value : excess) value -= epsilon;
@@ -57,14 +57,15 @@ PhaseField potential_of(const DistanceField& field, mesh::Phase phase, const Cel
     return excess[local.offset(inside(i, box.cells.i), inside(j, box.cells.j), inside(k, box.cells.k))];
   };
 
-  // Deep in the core φ itself will do.
+  // Deep in the core, where no tricubic around a film reaches, φ itself will do.
+  const double deep = std::max(beyond_films * h - epsilon, h);
   PhaseField potential{phase, cells, epsilon - reach, {}};
   potential.value.reserve(excess.size());
   std::vector<bool> wanted;
   wanted.reserve(excess.size());
   for (double value : excess) {
     potential.value.push_back(value > 0 ? epsilon + value : epsilon - reach);
-    wanted.push_back(value < beyond_films * field.box.spacing() - epsilon);
+    wanted.push_back(value < deep);
   }
   for (const ClosestPoint& p : closest_points(level_surface(box, excess), box, reach, wanted)) {
     const auto foot = LocalCubic(box, p.point, excess_at).closest_zero(p.centre, p.point);
