@@ -94,7 +94,6 @@ struct Choice {
   std::function<std::vector<int>(Record&)> get;
   std::function<void(Record&, const std::vector<int>&)> set;
   int count = 1;                     ///< 1: a single name; n > 1: an array of n; any_count
-  std::vector<std::string> later{};  ///< names that a later version will know
 };
 
 template <class Record>

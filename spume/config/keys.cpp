@@ -69,14 +69,6 @@ Choice<Case> fields_choice() {
           .count = Choice<Case>::any_count};
 }
 
-/// This version has one way to move the films.
-Choice<Case> interface_choice() {
-  return {.names = {"mesh"},
-          .get = [](Case&) { return std::vector<int>{0}; },
-          .set = [](Case&, const std::vector<int>&) {},
-          .later = {"viim"}};
-}
-
 simulation::ClusterShape& cluster(Case& c) {
   return c.foam.cluster ? *c.foam.cluster : c.foam.cluster.emplace();
 }
@@ -164,7 +156,15 @@ Keys rearrangement_keys() {
       {"rearrangement.conserve_volumes",
        Flag<Case>{[](Case& c) -> bool& { return c.rearrangement.conserve_volumes; }}, "", "",
        "give every bubble its volume back after each change of the films"},
-      {"rearrangement.interface", interface_choice(), "", "", "how the films move"},
+      {"rearrangement.interface",
+       choice<Case, RearrangementParameters::Interface>(
+           {"mesh", "viim"},
+           [](Case& c) -> RearrangementParameters::Interface& { return c.rearrangement.interface; }),
+       "", "", "mesh: a mesh of the films moves; viim: distance and phase on the grid, as in the paper"},
+      {"rearrangement.epsilon",
+       Number<Case>{[](Case& c) -> double& { return c.rearrangement.epsilon; },
+                    Range{.lowest = 1, .highest = 2}},
+       "h", "ε", "with viim: the level of the distance from which films are reconstructed"},
       {"rearrangement.dynamics",
        choice<Case, RearrangementParameters::Dynamics>(
            {"gas", "quasistatic"},

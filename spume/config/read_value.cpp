@@ -144,8 +144,6 @@ Complaint find_name(const Choice<Record>& kind, const toml::node& node, int& pla
   const std::string expected = (kind.names.size() == 1 ? "\"" : "one of \"") + names + "\"";
   if (!node.is_string()) return must_be(expected, node);
   const std::string& name = node.as_string()->get();
-  if (std::ranges::find(kind.later, name) != kind.later.end())
-    return " = " + quoted(name) + " is not available in this version; use " + expected;
   const auto found = std::ranges::find(kind.names, name);
   if (found == kind.names.end())
     return *must_be(expected, node) + did_you_mean(nearest_names(name, kind.names));

@@ -76,7 +76,14 @@ Reconstruction reconstruct(const grid::Grid& grid, const mesh::FilmMesh& films, 
   mesh::FilmMesh resolved = films;
   auto potentials = std::make_shared<PhasePotentials>(
       potentials_of_resolved(grid, resolved, phases, parameters, smallest_volume, report));
+  return extract_films(grid, std::move(potentials), phases, parameters, std::move(report));
+}
 
+Reconstruction extract_films(const grid::Grid& grid, std::shared_ptr<PhasePotentials> potentials,
+                             state::Phases& phases, const ReconstructParameters& parameters,
+                             ReconstructReport report) {
+  const double h = grid.h(), edge = parameters.smallest_bubble_cells * h,
+               smallest_volume = edge * edge * edge;
   constexpr int n_volume_rounds = 2;
   FoundFilms found;
   for (int round = 0;; ++round) {

@@ -58,9 +58,16 @@ struct Reconstruction {
 /// Rebuilds the film mesh. `phases` gains the bubbles that were born by splits, loses those that became too
 /// small (target volume 0) and keeps the sum of target volumes of bubbles and pockets of the outside
 /// consistent with that. Collective; every rank gets the same mesh. Throws NumericalError when a film comes
-/// within four cells of the edge of the box (films across a periodic edge are not supported).
+/// within four cells of a wall.
 Reconstruction reconstruct(const grid::Grid& grid, const mesh::FilmMesh& films, state::Phases& phases,
                            const ReconstructParameters& parameters);
+
+/// The films of given potentials, which are the second half of reconstruct(): single pieces, contour,
+/// projection, volumes, coarsening. The potentials are changed where pieces are separated, and by the
+/// constants that give bubbles their volumes. `report` holds what was done before. Throws as reconstruct().
+Reconstruction extract_films(const grid::Grid& grid, std::shared_ptr<PhasePotentials> potentials,
+                             state::Phases& phases, const ReconstructParameters& parameters,
+                             ReconstructReport report);
 
 /// Films from functions instead of from a mesh: the Voronoi interface of `potential(phase, x)`, phases 0 …
 /// n−1 (where two are equal and largest; each smooth and of the size of a distance near its films). For

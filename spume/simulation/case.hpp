@@ -51,6 +51,8 @@ struct RearrangementParameters {
   int reconstruction_interval = 50;        ///< steps, while the films move
   double reconstruction_displacement = 1;  ///< of a vertex since the last reconstruction [h]
   bool conserve_volumes = true;
+  enum class Interface { Mesh, Viim } interface = Interface::Mesh;
+  double epsilon = 1.5;  ///< of the Voronoi implicit interface method [h]
   enum class Dynamics { Gas, Quasistatic } dynamics = Dynamics::Gas;
   double capillary_factor = 0.8;  ///< C in Δt ≤ C sqrt(ρ h³/2σ)
 };

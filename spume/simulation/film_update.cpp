@@ -63,14 +63,18 @@ state::Event describe(double time, const interface::ReconstructReport::PhaseChan
 }  // namespace
 
 FilmUpdate reconstruct_films(const grid::Grid& grid, const Case& run_case, state::Foam& foam) {
+  return take_over(run_case, grid.h(),
+                   interface::reconstruct(grid, foam.films, foam.phases, run_case.reconstruct), foam);
+}
+
+FilmUpdate take_over(const Case& run_case, double h, interface::Reconstruction reconstruction,
+                     state::Foam& foam) {
   const mesh::Topology old_topology = mesh::build_topology(foam.films);
   const double old_area = mesh::film_area(foam.films);
-  auto reconstruction = interface::reconstruct(grid, foam.films, foam.phases, run_case.reconstruct);
-
   FilmUpdate update;
   update.reconstruction = std::move(reconstruction.report);
   update.potentials = std::move(reconstruction.potentials);
-  update.topology = replace_films(run_case, grid.h(), std::move(reconstruction.films), foam, update.transfer);
+  update.topology = replace_films(run_case, h, std::move(reconstruction.films), foam, update.transfer);
   update.energy_correction =
       2 * run_case.materials.film.surface_tension * (mesh::film_area(foam.films) - old_area);
 

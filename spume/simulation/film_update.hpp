@@ -26,6 +26,11 @@ struct FilmUpdate {
 /// share films is reported as a T1. Collective.
 FilmUpdate reconstruct_films(const grid::Grid& grid, const Case& run_case, state::Foam& foam);
 
+/// Makes reconstructed films those of a foam, with its liquid, and tells what changed. foam.phases are those
+/// after the reconstruction already, foam.films those before.
+FilmUpdate take_over(const Case& run_case, double h, interface::Reconstruction reconstruction,
+                     state::Foam& foam);
+
 /// Gives the foam another mesh of the same films, with its liquid.
 mesh::Topology replace_films(const Case& run_case, double h, mesh::FilmMesh films, state::Foam& foam,
                              transport::TransferReport& report);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "spume/base/error.hpp"
 #include "spume/flow/navier_stokes.hpp"
@@ -13,6 +14,7 @@
 #include "spume/simulation/equilibrate.hpp"
 #include "spume/simulation/equilibrium.hpp"
 #include "spume/simulation/film_update.hpp"
+#include "spume/simulation/viim_motion.hpp"
 
 namespace spume::simulation {
 
@@ -53,6 +55,20 @@ mesh::Topology reconstruct(const grid::Grid& grid, const Case& run_case, RunStat
   return std::move(update.topology);
 }
 
+/// Vertices move with the gas; gives the film area before corrections [m²].
+double carry_mesh(const grid::Grid& grid, const Case& run_case, const grid::VectorField& velocity,
+                  const grid::KernelCoupling& kernel, double dt, RunState& run, mesh::Topology& topology,
+                  Witness& witness) {
+  interface::carry(run.foam.films, velocity, kernel, dt);
+  ++run.rearrange.steps_since_reconstruction;
+  const double area_carried = mesh::film_area(run.foam.films);
+  if (run_case.rearrangement.conserve_volumes)
+    mesh::restore_volumes(run.foam.films, run.foam.phases.target_volume, 1, 0.1 * grid.h());
+  if (needs_reconstruction(grid, run_case.rearrangement, run))
+    topology = reconstruct(grid, run_case, run, witness);
+  return area_carried;
+}
+
 /// Without gas: the overdamped motion of the films to equilibrium, at no cost of simulated time.
 void rearrange_quasistatically(const grid::Grid& grid, const Case& run_case, RunState& run,
                                Witness& witness) {
@@ -89,6 +105,9 @@ void rearrange(const grid::Grid& grid, const Case& run_case, RunState& run, Witn
   grid::VectorField force(grid), film_velocity(grid);
   mesh::Topology topology = mesh::build_topology(run.foam.films);
   if (run.rearrange.reference.empty()) run.rearrange.reference = run.foam.films.position;
+  std::optional<ViimMotion> viim;
+  if (run_case.rearrangement.interface == RearrangementParameters::Interface::Viim)
+    viim.emplace(grid, run_case, run.foam);
 
   for (EquilibriumMeasure equilibrium;;) {
     const bool out_of_time =
@@ -115,15 +134,11 @@ void rearrange(const grid::Grid& grid, const Case& run_case, RunState& run, Witn
     const flow::StepLimit limit = choose_step(grid, run_case, gas, run);
     gas.step(run.foam.gas, force, limit.dt);
     gas.film_velocity(run.foam.gas, film_velocity);
-    interface::carry(run.foam.films, film_velocity, kernel, limit.dt);
+    const double area_carried =
+        viim ? viim->move(run, film_velocity, kernel, limit.dt, topology, witness)
+             : carry_mesh(grid, run_case, film_velocity, kernel, limit.dt, run, topology, witness);
     run.foam.time += limit.dt;
     run.rearrange.elapsed += limit.dt;
-    ++run.rearrange.steps_since_reconstruction;
-    const double area_carried = mesh::film_area(run.foam.films);
-    if (run_case.rearrangement.conserve_volumes)
-      mesh::restore_volumes(run.foam.films, run.foam.phases.target_volume, 1, 0.1 * grid.h());
-    if (needs_reconstruction(grid, run_case.rearrangement, run))
-      topology = reconstruct(grid, run_case, run, witness);
     transport::fill_young_films(run.foam.films, topology, run.foam.liquid, grid.h(), run_case.transport);
 
     const double sigma = materials.film.surface_tension;

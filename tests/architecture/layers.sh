@@ -22,7 +22,9 @@ allowed[state]="$tools grid mesh fem"
 for model in interface flow transport meshing drainage rupture optics io; do
   allowed[$model]="${allowed[state]} state"
 done
-allowed[simulation]="${allowed[io]} interface flow transport meshing drainage rupture optics io"
+# The paper's interface method makes its films from potentials with the contour and volumes of interface/.
+allowed[viim]="${allowed[interface]} interface"
+allowed[simulation]="${allowed[io]} interface viim flow transport meshing drainage rupture optics io"
 allowed[config]="${allowed[simulation]} simulation"
 
 for path in spume/*/; do

@@ -48,6 +48,17 @@ TEST(Assess, warns_of_films_that_break_at_once) {
   EXPECT_THAT(assessment_of({"rupture.threshold=1e-5"}).warnings, Contains(HasSubstr("break at once")));
 }
 
+TEST(Assess, warns_of_an_interface_method_that_is_not_used) {
+  EXPECT_THAT(assessment_of({"rearrangement.interface=viim"}).warnings, IsEmpty());
+  EXPECT_THAT(assessment_of({"rearrangement.interface=viim", "rearrangement.dynamics=quasistatic"}).warnings,
+              Contains(HasSubstr("no effect")));
+}
+
+TEST(Assess, knows_that_a_reconstruction_at_every_step_costs_more) {
+  EXPECT_GT(assessment_of({"rearrangement.interface=viim"}).seconds_per_step,
+            3 * assessment_of({}).seconds_per_step);
+}
+
 TEST(Report, shows_step_limits_with_reasons_and_warnings_last) {
   const auto run_case = parse_case(sample_case, "sample.toml", {"domain.cells=[20, 20, 20]"});
   const std::string text = report(assess(run_case, run_case.foam.bubble), run_case);

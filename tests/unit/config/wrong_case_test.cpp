@@ -82,9 +82,6 @@ TEST(WrongCase, feature_of_a_later_version_is_called_that) {
   EXPECT_THAT(report(sample_domain + "[foam.lattice]\nstructure = \"kelvin\"\n"),
               HasSubstr("'foam.lattice'"));
   EXPECT_THAT(report(sample_domain + "[foam.labels]\nfile = \"a.vti\"\n"), HasSubstr("'foam.labels'"));
-  EXPECT_THAT(
-      report(sample_case, {"rearrangement.interface=viim"}),
-      HasSubstr("'rearrangement.interface' = \"viim\" is not available in this version; use \"mesh\""));
 }
 
 TEST(WrongCase, all_problems_are_in_one_report_in_the_order_of_the_file) {
