@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <string>
@@ -19,6 +20,7 @@ struct ReconstructParameters {
       0.3;  ///< the profile is continued linearly where its slope falls below this × maximum
   double smallest_bubble_cells = 2.5;  ///< pieces below (this × h)³ are not kept as bubbles of their own
   bool conserve_volumes = true;
+  double relaxation = getenv("RT") ? atof(getenv("RT")) : 0.3;
   mesh::RemeshParameters remesh;
 };
 

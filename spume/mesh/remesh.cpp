@@ -3,6 +3,7 @@
 #include "spume/base/contract.hpp"
 #include "spume/mesh/collapse.hpp"
 #include "spume/mesh/flip.hpp"
+#include "spume/mesh/merge.hpp"
 #include "spume/mesh/smooth.hpp"
 #include "spume/mesh/split.hpp"
 #include "spume/mesh/working_mesh.hpp"
@@ -49,6 +50,10 @@ RemeshReport remesh(FilmMesh& mesh, const TargetLength& target, const Projection
     const int n_before = report.n_split + report.n_collapsed;
     if (splits) split_until_short(work, target, project, parameters, report);
     report.n_collapsed += collapse_short_edges(work, target, parameters);
+    if (const int n_merged = merge_tiny_features(work, target, parameters); n_merged > 0) {
+      report.n_merged += n_merged;
+      report.n_collapsed += collapse_short_edges(work, target, parameters);
+    }
     report.n_flipped += flip_edges(work);
     if (round > 0 && report.n_split + report.n_collapsed == n_before) break;
     for (int sweep = 0; sweep < parameters.smoothing_sweeps; ++sweep) {

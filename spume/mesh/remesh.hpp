@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdlib>
 #include <functional>
 #include <optional>
 
@@ -26,11 +27,13 @@ struct RemeshParameters {
   double collapse_below = 0.7;  ///< collapse edges shorter than this × target
   double no_edge_beyond = 1.8;  ///< a collapse may not make an edge longer than this × target
   double tiny = 0.25;        ///< below this × target an edge goes even if normals turn or edges grow to 2.2
+  double merge_below = getenv("MB") ? atof(getenv("MB")) : 0.3;
   double split_above = 0;    ///< split edges longer than this × target; 0: never
   int smoothing_sweeps = 3;  ///< tangential, each followed by projection and flips
 };
 struct RemeshReport {
   int n_collapsed = 0, n_split = 0, n_flipped = 0;
+  int n_merged = 0;  ///< vertices drawn together with others: see merge.hpp
   int n_left_short = 0;  ///< edges below `tiny` × target that could not be collapsed
 };
 
