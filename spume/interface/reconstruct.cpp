@@ -63,13 +63,16 @@ PhasePotentials potentials_of_resolved(const grid::Grid& grid, mesh::FilmMesh& f
   }
 }
 
-/// Lets the mesh relax over a short time, which the step in advance has been longer by: kinks beside borders and the offsets of vertices from the discrete minimum of the area go, smooth shapes stay.
-void settle(mesh::FilmMesh& films, const state::Phases& phases, const ReconstructParameters& parameters, double h, double area_before) {
-  static const int n_steps = getenv("RN") ? atoi(getenv("RN")) : 3;
+/// Relaxes a fresh mesh over a short time, by which the step in advance was longer: smooth shapes stay as
+/// they are, while the kinks beside borders go and vertices settle in the discrete minimum of the area, above
+/// which a fresh sampling of smooth films lies.
+void settle(mesh::FilmMesh& films, const state::Phases& phases, const ReconstructParameters& parameters,
+            double h) {
+  constexpr int n_steps = 4;
   if (!(parameters.relaxation > 0)) return;
-  for (int n = 0; n < n_steps; ++n) relax_step(films, phases, parameters.relaxation * h * h / n_steps);
-  static const int n_extra = getenv("RX") ? atoi(getenv("RX")) : 4;
-  for (int n = 0; n < n_extra && mesh::film_area(films) > area_before; ++n) relax_step(films, phases, parameters.relaxation * h * h / n_steps);
+  state::Phases measured = phases;
+  if (!parameters.conserve_volumes) measured.target_volume = mesh::phase_volumes(films, phases.count());
+  for (int n = 0; n < n_steps; ++n) relax_step(films, measured, parameters.relaxation * h * h / n_steps);
 }
 
 }  // namespace
@@ -99,7 +102,7 @@ Reconstruction reconstruct(const grid::Grid& grid, const mesh::FilmMesh& films, 
   if (parameters.conserve_volumes)
     report.largest_volume_displacement =
         mesh::restore_volumes(mesh, phases.target_volume, 3, largest_volume_step * h);
-  settle(mesh, phases, parameters, h, report.changes.empty() ? mesh::film_area(resolved) : 1e300);
+  settle(mesh, phases, parameters, h);
   report.n_nonconforming_edges = mesh::build_topology(mesh).n_nonconforming_edges;
   require_clearance(grid, mesh);
   return {std::move(mesh), std::move(report), std::move(potentials)};

@@ -192,8 +192,9 @@ bool Merger::is_regular_link(const PhaseSet& phases) const {
       if (node.contains(x)) continue;
       for (int s : star_[x])
         if (!std::binary_search(dying_.begin(), dying_.end(), s) &&
-            std::none_of(remaining_.begin(), remaining_.end(),
-                         [&](const Remaining& r) { return r.triangle == s && mesh_.triangle[s].vertex[r.corner] == x; }))
+            std::none_of(remaining_.begin(), remaining_.end(), [&](const Remaining& r) {
+              return r.triangle == s && mesh_.triangle[s].vertex[r.corner] == x;
+            }))
           return false;
     }
   return true;

@@ -25,6 +25,14 @@ void split_until_short(WorkingMesh& work, const TargetLength& target, const Proj
   }
 }
 
+/// What has been drawn together may let edges beside it collapse.
+void merge_and_collapse(WorkingMesh& work, const TargetLength& target, const RemeshParameters& parameters,
+                        RemeshReport& report) {
+  const int n_merged = merge_tiny_features(work, target, parameters);
+  report.n_merged += n_merged;
+  if (n_merged > 0) report.n_collapsed += collapse_short_edges(work, target, parameters);
+}
+
 int count_tiny_edges(const FilmMesh& mesh, const TargetLength& target, double tiny) {
   const std::vector<double> target_length = targets_at_vertices(mesh, target);
   int n_tiny = 0;
@@ -50,10 +58,7 @@ RemeshReport remesh(FilmMesh& mesh, const TargetLength& target, const Projection
     const int n_before = report.n_split + report.n_collapsed;
     if (splits) split_until_short(work, target, project, parameters, report);
     report.n_collapsed += collapse_short_edges(work, target, parameters);
-    if (const int n_merged = merge_tiny_features(work, target, parameters); n_merged > 0) {
-      report.n_merged += n_merged;
-      report.n_collapsed += collapse_short_edges(work, target, parameters);
-    }
+    if (parameters.merge_below > 0) merge_and_collapse(work, target, parameters, report);
     report.n_flipped += flip_edges(work);
     if (round > 0 && report.n_split + report.n_collapsed == n_before) break;
     for (int sweep = 0; sweep < parameters.smoothing_sweeps; ++sweep) {
