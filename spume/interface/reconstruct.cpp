@@ -1,6 +1,7 @@
 #include "spume/interface/reconstruct.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "spume/base/error.hpp"
@@ -65,7 +66,7 @@ PhasePotentials potentials_of_resolved(const grid::Grid& grid, mesh::FilmMesh& f
 
 /// Relaxes a fresh mesh over a short time, by which the step in advance was longer: smooth shapes stay as
 /// they are, while the kinks beside borders go and vertices settle in the discrete minimum of the area, above
-/// which a fresh sampling of smooth films lies.
+/// which a fresh sampling of smooth films lies. What shrank to a point meanwhile is drawn together.
 void settle(mesh::FilmMesh& films, const state::Phases& phases, const ReconstructParameters& parameters,
             double h) {
   constexpr int n_steps = 4;
@@ -73,6 +74,15 @@ void settle(mesh::FilmMesh& films, const state::Phases& phases, const Reconstruc
   state::Phases measured = phases;
   if (!parameters.conserve_volumes) measured.target_volume = mesh::phase_volumes(films, phases.count());
   for (int n = 0; n < n_steps; ++n) relax_step(films, measured, parameters.relaxation * h * h / n_steps);
+
+  mesh::RemeshParameters tidying = parameters.remesh;
+  tidying.collapse_below = tidying.merge_below;
+  tidying.smoothing_sweeps = 0;
+  const auto where_it_is = [](const Vec3& x, const mesh::PhaseSet&) { return std::optional(x); };
+  const auto tidied = mesh::remesh(
+      films, [h](const Vec3&) { return h; }, where_it_is, tidying);
+  if (tidied.n_collapsed + tidied.n_merged > 0)
+    mesh::restore_volumes(films, measured.target_volume, 3, largest_volume_step * h);
 }
 
 }  // namespace
