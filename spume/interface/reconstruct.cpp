@@ -70,7 +70,7 @@ PhasePotentials potentials_of_resolved(const grid::Grid& grid, mesh::FilmMesh& f
 void settle(mesh::FilmMesh& films, const state::Phases& phases, const ReconstructParameters& parameters,
             double h) {
   constexpr int n_steps = 4;
-  if (!(parameters.relaxation > 0)) return;
+  if (!(parameters.relaxation > 0) || films.triangle.empty()) return;
   state::Phases measured = phases;
   if (!parameters.conserve_volumes) measured.target_volume = mesh::phase_volumes(films, phases.count());
   for (int n = 0; n < n_steps; ++n) relax_step(films, measured, parameters.relaxation * h * h / n_steps);
@@ -79,10 +79,9 @@ void settle(mesh::FilmMesh& films, const state::Phases& phases, const Reconstruc
   tidying.collapse_below = tidying.merge_below;
   tidying.smoothing_sweeps = 0;
   const auto where_it_is = [](const Vec3& x, const mesh::PhaseSet&) { return std::optional(x); };
-  const auto tidied = mesh::remesh(
+  mesh::remesh(
       films, [h](const Vec3&) { return h; }, where_it_is, tidying);
-  if (tidied.n_collapsed + tidied.n_merged > 0)
-    mesh::restore_volumes(films, measured.target_volume, 3, largest_volume_step * h);
+  mesh::restore_volumes(films, measured.target_volume, 3, largest_volume_step * h);
 }
 
 }  // namespace
