@@ -51,6 +51,38 @@ bool has_poor_triangles(const mesh::FilmMesh& films, const mesh::Topology& topol
   return quality.shortest_edge < 0.2 * h || quality.smallest_angle_degrees < 15;
 }
 
+/// The films of a foam and what they carry, to go back to.
+class Mark {
+ public:
+  explicit Mark(const state::Foam& foam) : films_(foam.films), phases_(foam.phases), liquid_(foam.liquid) {}
+  void restore(state::Foam& foam) const {
+    foam.films = films_;
+    foam.phases = phases_;
+    foam.liquid = liquid_;
+  }
+
+ private:
+  mesh::FilmMesh films_;
+  state::Phases phases_;
+  state::FilmLiquid liquid_;
+};
+
+/// What a reconstruction without a topological change has added to the area, for the steps that follow to
+/// take off again.
+class Regain {
+ public:
+  void start(double area) {
+    area_ = area;
+    n_left_ = most_steps;
+  }
+  bool goes_on(double area) { return area > area_ && n_left_-- > 0; }
+
+ private:
+  static constexpr int most_steps = 10;
+  double area_ = 0;
+  int n_left_ = 0;
+};
+
 }  // namespace
 
 EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, state::Foam& foam,
@@ -61,6 +93,7 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
   const double h = grid.h();
   Pace pace(mean_bubble_radius(foam.phases));
   Remainder remainder;
+  Regain regain;
 
   EquilibrateReport report;
   mesh::Topology topology = mesh::build_topology(foam.films);
@@ -79,8 +112,9 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
     report.virial_error = step.virial_error;
     report.area_change = std::abs(step.area_after / step.area_before - 1);
     report.area_to_fall = remainder.after(report.area_change);
-    if (!on_step(step, topology)) break;
     if (step.largest_displacement < 0.1 * h) pace.speed_up();
+    if (regain.goes_on(step.area_after)) continue;
+    if (!on_step(step, topology)) break;
 
     const double motion = largest_distance(foam.films.position, reference) / h;
     const bool at_rest = report.area_to_fall < rest && report.virial_error < largest_virial_error;
@@ -88,16 +122,23 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
     report.converged = at_rest && motion < motion_at_rest_cells && !poor;
     if (report.converged) break;
     fresh = false;
-    if (motion > largest_motion_cells || at_rest || poor) {
-      FilmUpdate update = reconstruct_films(grid, run_case, foam);
-      events.insert(events.end(), update.events.begin(), update.events.end());
-      topology = std::move(update.topology);
-      reference = foam.films.position;
-      pace.restart();
-      remainder.restart();
-      fresh = true;
-      ++report.n_reconstructions;
+    if (motion < largest_motion_cells && !at_rest && !poor) continue;
+
+    const Mark mark(foam);
+    FilmUpdate update = reconstruct_films(grid, run_case, foam);
+    ++report.n_reconstructions;
+    report.converged = update.events.empty() && at_rest && !poor;
+    if (report.converged) {
+      mark.restore(foam);
+      break;
     }
+    events.insert(events.end(), update.events.begin(), update.events.end());
+    topology = std::move(update.topology);
+    reference = foam.films.position;
+    pace.restart();
+    remainder.restart();
+    if (update.events.empty()) regain.start(step.area_after);
+    fresh = true;
   }
   return report;
 }

@@ -26,12 +26,13 @@ std::pair<double, double> errors_of_sphere(int level) {
           smooth_film_area(films, mesh::build_topology(films), phases) / exact - 1};
 }
 
+// Finer, the errors reach 1e-7 and change sign.
 TEST(SmoothFilmArea, of_a_sphere_is_fourth_order) {
-  const auto [flat, smooth] = errors_of_sphere(3);
-  const auto [flat_fine, smooth_fine] = errors_of_sphere(4);
+  const auto [flat, smooth] = errors_of_sphere(2);
+  const auto [flat_fine, smooth_fine] = errors_of_sphere(3);
   EXPECT_NEAR(std::log2(flat / flat_fine), 2, 0.1);
-  EXPECT_NEAR(std::log2(std::abs(smooth / smooth_fine)), 4, 0.5);
-  EXPECT_LT(std::abs(smooth), 0.05 * flat);  // measured
+  EXPECT_NEAR(std::log2(smooth / smooth_fine), 4.4, 0.5);
+  EXPECT_LT(std::abs(smooth_fine), 0.01 * flat_fine);
 }
 
 // The exact cluster with vertices on the films: flat triangles enclose too little, which the targets mend.

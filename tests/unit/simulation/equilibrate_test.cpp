@@ -37,7 +37,7 @@ Relaxed relax(const grid::Grid& grid, const Case& run_case) {
   double last = 1e300;
   result.report = equilibrate(grid, run_case, result.foam, events, [&](const auto& step, const auto&) {
     EXPECT_LE(step.area_after, step.area_before);
-    result.largest_rise = std::max(result.largest_rise, step.area_before / last - 1);
+    result.largest_rise = std::max(result.largest_rise, step.area_after / last - 1);
     last = step.area_after;
     return true;
   });
