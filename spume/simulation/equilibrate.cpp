@@ -98,7 +98,7 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
   EquilibrateReport report;
   mesh::Topology topology = mesh::build_topology(foam.films);
   std::vector<Vec3> reference = foam.films.position;
-  bool fresh = true;  // just reconstructed: poor triangles are there to stay
+  bool stays_poor = false;  // reconstructing does not help
   while (report.n_steps < most_steps) {
     const std::vector<Vec3> before = foam.films.position;
     const auto step = interface::relax_step(foam.films, foam.phases, pace.tau());
@@ -118,10 +118,9 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
 
     const double motion = largest_distance(foam.films.position, reference) / h;
     const bool at_rest = report.area_to_fall < rest && report.virial_error < largest_virial_error;
-    const bool poor = !fresh && has_poor_triangles(foam.films, topology, h);
+    const bool poor = !stays_poor && has_poor_triangles(foam.films, topology, h);
     report.converged = at_rest && motion < motion_at_rest_cells && !poor;
     if (report.converged) break;
-    fresh = false;
     if (motion < largest_motion_cells && !at_rest && !poor) continue;
 
     const Mark mark(foam);
@@ -138,7 +137,7 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
     pace.restart();
     remainder.restart();
     if (update.events.empty()) regain.start(step.area_after);
-    fresh = true;
+    stays_poor = has_poor_triangles(foam.films, topology, h);
   }
   return report;
 }
