@@ -26,7 +26,6 @@ class Merger {
         mesh_(work.mesh),
         parameters_(parameters),
         target_(targets_at_vertices(work.mesh, target)),
-        star_(vertex_stars(work.mesh)),
         dead_triangle_(work.mesh.n_triangles(), 0),
         touched_(work.mesh.n_vertices(), 0) {}
 
@@ -34,6 +33,7 @@ class Merger {
   int run() {
     const std::vector<TinyEdge> edges = tiny_edges();
     if (edges.empty()) return 0;
+    star_ = vertex_stars(mesh_);
     UnionFind groups(mesh_.n_vertices());
     for (const TinyEdge& e : edges) groups.join(e.low, e.high);
     std::vector<std::vector<int>> members(mesh_.n_vertices());
@@ -60,6 +60,9 @@ class Merger {
   Vec3 meeting_point(const std::vector<int>& group) const;
   void collect_triangles(const std::vector<int>& group);
   bool is_regular_link(const PhaseSet& phases) const;
+  /// Neighbours of the new vertex and the remaining triangles at each, as places in remaining_.
+  using Link = std::map<int, std::vector<int>>;
+  bool lets_neighbours_be(int dying_triangle, const Link& link) const;
   bool is_conforming(const std::vector<int>& uses, int neighbour) const;
   bool keeps_orientation(const std::vector<int>& group, const Vec3& point) const;
 
@@ -107,8 +110,7 @@ int Merger::try_merge(const std::vector<int>& group) {
   if (!is_regular_link(phases) || !keeps_orientation(group, point)) return 0;
 
   const int kept = group.front();
-  for (const std::vector<int>& star : {dying_})
-    for (int t : star) dead_triangle_[t] = 1;
+  for (int t : dying_) dead_triangle_[t] = 1;
   for (const Remaining& r : remaining_) mesh_.triangle[r.triangle].vertex[r.corner] = kept;
   for (int v : group)
     for (int t : star_[v])
@@ -165,7 +167,7 @@ void Merger::collect_triangles(const std::vector<int>& group) {
 
 /// The link of the new vertex: a node for each neighbour, an arc for each remaining triangle.
 bool Merger::is_regular_link(const PhaseSet& phases) const {
-  std::map<int, std::vector<int>> node;  // remaining triangles at each neighbour, as places in remaining_
+  Link node;
   std::map<std::pair<int, int>, int> arc;
   PhaseSet present;
   for (int n = 0; n < static_cast<int>(remaining_.size()); ++n) {
@@ -186,18 +188,21 @@ bool Merger::is_regular_link(const PhaseSet& phases) const {
   }
   std::vector<int> class_of;
   if (linked.number(class_of) != 1) return false;
-  // A neighbour that only dying triangles join to the group must go with them.
-  for (int t : dying_)
-    for (int x : mesh_.triangle[t].vertex) {
-      if (node.contains(x)) continue;
-      for (int s : star_[x])
-        if (!std::binary_search(dying_.begin(), dying_.end(), s) &&
-            std::none_of(remaining_.begin(), remaining_.end(), [&](const Remaining& r) {
-              return r.triangle == s && mesh_.triangle[s].vertex[r.corner] == x;
-            }))
-          return false;
-    }
-  return true;
+  return std::all_of(dying_.begin(), dying_.end(), [&](int t) { return lets_neighbours_be(t, node); });
+}
+
+/// A neighbour that only dying triangles join to the group must go with them, or it would hang in the air.
+bool Merger::lets_neighbours_be(int dying_triangle, const Link& link) const {
+  const auto goes = [&](int x) {
+    return std::all_of(star_[x].begin(), star_[x].end(),
+                       [&](int t) { return std::binary_search(dying_.begin(), dying_.end(), t); });
+  };
+  const auto is_member = [&](int x) {
+    return std::any_of(remaining_.begin(), remaining_.end(),
+                       [&](const Remaining& r) { return mesh_.triangle[r.triangle].vertex[r.corner] == x; });
+  };
+  const auto& v = mesh_.triangle[dying_triangle].vertex;
+  return std::all_of(v.begin(), v.end(), [&](int x) { return link.contains(x) || is_member(x) || goes(x); });
 }
 
 /// Whether the edge from the new vertex to a neighbour is inside one lamella or on a border.

@@ -13,7 +13,7 @@ namespace spume::mesh {
 ///  - every edge at the new vertex is inside one lamella or on a border;
 ///  - the link of the new vertex is a sphere divided among the phases of the group, each one region of it
 ///    (V − E + F = 2 with F their number): no phase touches itself, none vanishes, no hole closes;
-///  - the group is small: at most `largest_group` vertices within one target length;
+///  - the group is small: at most twelve vertices within half a target length of the first;
 ///  - no triangle turns over that was not a sliver.
 /// Where a whole group cannot, its edges are tried one by one, shortest first. The new vertex is at the mean
 /// of those of highest precedence. Gives the number of vertices that went.
