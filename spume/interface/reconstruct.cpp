@@ -1,6 +1,7 @@
 #include "spume/interface/reconstruct.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "spume/base/error.hpp"
@@ -10,8 +11,10 @@
 #include "spume/interface/indicators.hpp"
 #include "spume/interface/lost_bubbles.hpp"
 #include "spume/interface/potentials.hpp"
+#include "spume/interface/relax.hpp"
 #include "spume/interface/step_in_advance.hpp"
 #include "spume/interface/volume_constants.hpp"
+#include "spume/mesh/measure.hpp"
 #include "spume/mesh/volume_constraint.hpp"
 
 namespace spume::interface {
@@ -28,7 +31,7 @@ PhasePotentials potentials_from(const grid::Grid& grid, mesh::FilmMesh films, in
                                 const ReconstructParameters& parameters, StageTimes& times) {
   const double h = grid.h(), variance = parameters.smoothing * h * h;
   const mesh::Topology topology = mesh::build_topology(films);
-  step_in_advance(films, topology, variance / 10, h, n_phases);
+  step_in_advance(films, topology, variance / 10 + parameters.relaxation * h * h, h, n_phases);
   const auto midpoints = edge_midpoints(films, topology);
   const PhaseColours colours = colour_phases(grid, films, n_phases);
   const auto indicators = smoothed_indicators(grid, films, midpoints, colours, variance);
@@ -63,6 +66,26 @@ PhasePotentials potentials_of_resolved(const grid::Grid& grid, mesh::FilmMesh& f
     if (unresolved.empty()) return potentials;
     for (mesh::Phase p : unresolved) remove_bubble(films, phases, p, report.changes);
   }
+}
+
+/// Relaxes a fresh mesh over a short time, by which the step in advance was longer: smooth shapes stay as
+/// they are, while the kinks beside borders go and vertices settle in the discrete minimum of the area, above
+/// which a fresh sampling of smooth films lies. What shrank to a point meanwhile is drawn together.
+void settle(mesh::FilmMesh& films, const state::Phases& phases, const ReconstructParameters& parameters,
+            double h) {
+  constexpr int n_steps = 4;
+  if (!(parameters.relaxation > 0) || films.triangle.empty()) return;
+  state::Phases measured = phases;
+  if (!parameters.conserve_volumes) measured.target_volume = mesh::phase_volumes(films, phases.count());
+  for (int n = 0; n < n_steps; ++n) relax_step(films, measured, parameters.relaxation * h * h / n_steps);
+
+  mesh::RemeshParameters tidying = parameters.remesh;
+  tidying.collapse_below = tidying.merge_below;
+  tidying.smoothing_sweeps = 0;
+  const auto where_it_is = [](const Vec3& x, const mesh::PhaseSet&) { return std::optional(x); };
+  mesh::remesh(
+      films, [h](const Vec3&) { return h; }, where_it_is, tidying);
+  mesh::restore_volumes(films, measured.target_volume, 3, largest_volume_step * h);
 }
 
 }  // namespace
@@ -105,6 +128,8 @@ Reconstruction extract_films(const grid::Grid& grid, std::shared_ptr<PhasePotent
     report.largest_volume_displacement =
         mesh::restore_volumes(mesh, phases.target_volume, 3, largest_volume_step * h);
   report.times.lap("volumes");
+  settle(mesh, phases, parameters, h);
+  report.times.lap("settling");
   report.n_nonconforming_edges = mesh::build_topology(mesh).n_nonconforming_edges;
   require_clearance(grid, mesh);
   report.times.lap("checks");

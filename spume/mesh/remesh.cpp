@@ -3,6 +3,7 @@
 #include "spume/base/contract.hpp"
 #include "spume/mesh/collapse.hpp"
 #include "spume/mesh/flip.hpp"
+#include "spume/mesh/merge.hpp"
 #include "spume/mesh/smooth.hpp"
 #include "spume/mesh/split.hpp"
 #include "spume/mesh/working_mesh.hpp"
@@ -22,6 +23,14 @@ void split_until_short(WorkingMesh& work, const TargetLength& target, const Proj
     report.n_split += n_split;
     report.n_flipped += flip_edges(work);
   }
+}
+
+/// What has been drawn together may let edges beside it collapse.
+void merge_and_collapse(WorkingMesh& work, const TargetLength& target, const RemeshParameters& parameters,
+                        RemeshReport& report) {
+  const int n_merged = merge_tiny_features(work, target, parameters);
+  report.n_merged += n_merged;
+  if (n_merged > 0) report.n_collapsed += collapse_short_edges(work, target, parameters);
 }
 
 int count_tiny_edges(const FilmMesh& mesh, const TargetLength& target, double tiny) {
@@ -48,6 +57,7 @@ RemeshReport remesh(FilmMesh& mesh, const TargetLength& target, const Projection
     const int n_before = report.n_split + report.n_collapsed;
     if (splits) split_until_short(work, target, project, parameters, report);
     report.n_collapsed += collapse_short_edges(work, target, parameters);
+    if (parameters.merge_below > 0) merge_and_collapse(work, target, parameters, report);
     report.n_flipped += flip_edges(work);
     if (round > 0 && report.n_split + report.n_collapsed == n_before) break;
     for (int sweep = 0; sweep < parameters.smoothing_sweeps; ++sweep) {

@@ -14,23 +14,26 @@ using Projection = std::function<std::optional<Vec3>(const Vec3& position, const
 using TargetLength = std::function<double(const Vec3& position)>;
 
 /// Remeshing of a multi-film mesh: collapses, splits, flips and tangential smoothing that keep it conforming
-/// and never change which lamellae, borders and junctions there are (apart from dropping those smaller than
-/// the collapse length). Precedence junction > border > film throughout. Results depend on the mesh alone,
-/// not on ranks. Target lengths between points are the mean of those at the ends of an edge. Coarsening alone
-/// (split_above = 0) is collapse_short_edges, flip_edges and the sweeps of smooth, once; refinement repeats
-/// split_long_edges and these until nothing is split or collapsed, four times at most, and then a few edges
-/// may be longer than split_above × target. 1.4 is a good value of split_above: halves must not be short
-/// enough to collapse (split_above ≥ 2 collapse_below). Vertices on an edge of a single triangle, where a
-/// film ends at a wall, do not move and do not disappear.
+/// and never change which lamellae, borders and junctions there are, apart from those smaller than
+/// merge_below × target, which become a junction of more than four phases. Precedence junction > border >
+/// film throughout. Results depend on the mesh alone, not on ranks. Target lengths between points are the
+/// mean of those at the ends of an edge. Coarsening alone (split_above = 0) is collapse_short_edges,
+/// flip_edges and the sweeps of smooth, once; refinement repeats split_long_edges and these until nothing is
+/// split or collapsed, four times at most, and then a few edges may be longer than split_above × target. 1.4
+/// is a good value of split_above: halves must not be short enough to collapse (split_above ≥ 2
+/// collapse_below). Vertices on an edge of a single triangle, where a film ends at a wall, do not move and do
+/// not disappear.
 struct RemeshParameters {
   double collapse_below = 0.7;  ///< collapse edges shorter than this × target
   double no_edge_beyond = 1.8;  ///< a collapse may not make an edge longer than this × target
-  double tiny = 0.25;        ///< below this × target an edge goes even if normals turn or edges grow to 2.2
-  double split_above = 0;    ///< split edges longer than this × target; 0: never
+  double tiny = 0.25;      ///< below this × target an edge goes even if normals turn or edges grow to 2.2
+  double merge_below = 0;  ///< × target: what shorter edges join becomes one vertex, see merge.hpp; 0: never
+  double split_above = 0;  ///< split edges longer than this × target; 0: never
   int smoothing_sweeps = 3;  ///< tangential, each followed by projection and flips
 };
 struct RemeshReport {
   int n_collapsed = 0, n_split = 0, n_flipped = 0;
+  int n_merged = 0;      ///< vertices drawn together with others: see merge.hpp
   int n_left_short = 0;  ///< edges below `tiny` × target that could not be collapsed
 };
 

@@ -118,8 +118,11 @@ void rearrange(const grid::Grid& grid, const Case& run_case, RunState& run, Witn
           run, out_of_time ? "equilibrium not reached" : "equilibrium reached",
           run.rearrange.recent_time.empty()
               ? "no time for it"
-              : fmt::format("after {:.4g} s; amplitude of motion {:.2g}; relative change of area {:.2g}",
-                            run.rearrange.elapsed, equilibrium.amplitude, equilibrium.area_change));
+              : fmt::format(
+                    "after {:.4g} s; amplitude of motion {:.2g}; relative change of area {:.2g}; virial "
+                    "identity off by {:.2g}",
+                    run.rearrange.elapsed, equilibrium.amplitude, equilibrium.area_change,
+                    equilibrium.virial_error));
       return;
     }
     if (run.foam.phases.n_bubbles() == 0) return;  // the last one was too small for the grid
@@ -131,6 +134,8 @@ void rearrange(const grid::Grid& grid, const Case& run_case, RunState& run, Witn
     const auto forces =
         flow::film_forces(run.foam.films, topology, run.foam.phases.count(), materials.film.surface_tension);
     spreader.spread(run.foam.films, forces, kernel, force);
+    const double virial = virial_ratio(run.foam.films, run.foam.phases, forces.pressure,
+                                       mesh::film_area(run.foam.films), materials.film.surface_tension);
     const flow::StepLimit limit = choose_step(grid, run_case, gas, run);
     gas.step(run.foam.gas, force, limit.dt);
     gas.film_velocity(run.foam.gas, film_velocity);
@@ -144,7 +149,7 @@ void rearrange(const grid::Grid& grid, const Case& run_case, RunState& run, Witn
     const double sigma = materials.film.surface_tension;
     const double area = mesh::film_area(run.foam.films);
     const double kinetic_energy = flow::kinetic_energy(run.foam.gas, materials.gas.density);
-    equilibrium = measure_equilibrium(run.rearrange, window, kinetic_energy, area, sigma);
+    equilibrium = measure_equilibrium(run.rearrange, window, kinetic_energy, area, virial, sigma);
     witness.step(run, topology,
                  {.dt = limit.dt,
                   .kinetic_energy = kinetic_energy,

@@ -54,7 +54,8 @@ void save(const std::filesystem::path& folder, const RunState& run, const DiaryM
   extras.lists = {{"reference", flatten(run.rearrange.reference)},
                   {"recent_time", run.rearrange.recent_time},
                   {"recent_kinetic_energy", run.rearrange.recent_kinetic_energy},
-                  {"recent_area", run.rearrange.recent_area}};
+                  {"recent_area", run.rearrange.recent_area},
+                  {"recent_virial", run.rearrange.recent_virial}};
   io::save_checkpoint(folder, run.foam, extras);
 }
 
@@ -79,6 +80,7 @@ DiaryMark load(const std::filesystem::path& folder, RunState& run) {
   run.rearrange.recent_time = list("recent_time");
   run.rearrange.recent_kinetic_energy = list("recent_kinetic_energy");
   run.rearrange.recent_area = list("recent_area");
+  run.rearrange.recent_virial = list("recent_virial");
   return {count("history_rows"),
           count("bubble_rows"),
           count("lamella_rows"),

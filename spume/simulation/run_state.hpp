@@ -12,8 +12,8 @@ struct RearrangeState {
   double elapsed = 0;  ///< since the stage began [s]
   int steps_since_reconstruction = 0;
   std::vector<Vec3> reference;  ///< vertices just after the last reconstruction [m]
-  std::vector<double> recent_time, recent_kinetic_energy,
-      recent_area;  ///< the window that equilibrium looks at
+  std::vector<double> recent_time, recent_kinetic_energy, recent_area,
+      recent_virial;  ///< the window that equilibrium looks at
 };
 
 /// Where a run stands: the foam and the counters. A checkpoint holds exactly this.

@@ -4,6 +4,8 @@
 #include <memory>
 #include <utility>
 
+#include "spume/base/error.hpp"
+#include "spume/interface/clearance.hpp"
 #include "spume/interface/lost_bubbles.hpp"
 #include "spume/mesh/topology.hpp"
 #include "spume/viim/advance.hpp"

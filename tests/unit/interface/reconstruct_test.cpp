@@ -8,6 +8,7 @@
 #include "spume/base/error.hpp"
 #include "spume/interface/contour.hpp"
 #include "spume/interface/phase_pieces.hpp"
+#include "spume/interface/relax.hpp"
 #include "spume/mesh/measure.hpp"
 #include "spume/mesh/topology.hpp"
 
@@ -131,6 +132,48 @@ TEST(Reconstruct, KeepsTheAreaAndVolumeOfASphere) {
     EXPECT_NEAR(mesh::film_area(result.films) / (4 * std::numbers::pi * 64 * h * h), 1, 1e-3);
     EXPECT_NEAR(mesh::phase_volumes(result.films, 2)[1] / volume, 1, 1e-9);
   }
+}
+
+// Relaxed until the area falls no more, so that every rise is the work of the reconstruction; 8e-6 measured,
+// and 8.7e-5 without settling.
+TEST(Reconstruct, HardlyRaisesTheAreaOfAFoamAtRest) {
+  const grid::Grid grid(parallel::Communicator::world(), testing::cube_box(36));
+  auto phases = testing::unset_phases(4);
+  const auto start = construct(grid, testing::power_diagram(testing::tetrahedral_cluster(8 * h)), phases, {});
+  mesh::FilmMesh films = start.films;
+  for (int n = 0; n < 40; ++n) relax_step(films, phases, 3 * h * h);
+  const double area = mesh::film_area(films);
+  const auto rise = [&](double relaxation) {
+    ReconstructParameters parameters;
+    parameters.relaxation = relaxation;
+    return mesh::film_area(reconstruct(grid, films, phases, parameters).films) / area - 1;
+  };
+  const double settled = rise(ReconstructParameters{}.relaxation), unsettled = rise(0);
+  EXPECT_LT(settled, 2e-5);
+  EXPECT_LT(settled, 0.3 * unsettled);
+}
+
+// Settling is curvature flow, which would take 0.4 h² · (n − 1)(n + 2)/R² = 2.5 % of the mode n = 2 of this
+// bubble; the longer step in advance gives it back. 1.7 % lost in four times, measured.
+TEST(Reconstruct, KeepsTheShapeOfAnEllipsoid) {
+  const grid::Grid grid(parallel::Communicator::world(), testing::cube_box(32));
+  auto phases = testing::unset_phases(1);
+  const Vec3 centre{0.2 * h, 0.1 * h, 0.4 * h}, axes{7.6 * h, 7.6 * h, 8.8 * h};
+  const auto ellipsoid = [&](mesh::Phase p, const Vec3& x) {
+    double s = 0;
+    for (int d = 0; d < 3; ++d) s += (x[d] - centre[d]) * (x[d] - centre[d]) / (axes[d] * axes[d]);
+    return (p == 1 ? 1 : -1) * 4 * h * (1 - s);
+  };
+  const auto elongation = [&](const mesh::FilmMesh& films) {
+    Vec3 reach;
+    for (const Vec3& x : films.position)
+      for (int d = 0; d < 3; ++d) reach[d] = std::max(reach[d], std::abs(x[d] - centre[d]));
+    return (reach.z - 0.5 * (reach.x + reach.y)) / h;
+  };
+  auto result = construct(grid, ellipsoid, phases, {});
+  const double before = elongation(result.films);
+  for (int n = 0; n < 4; ++n) result = reconstruct(grid, result.films, phases, {});
+  EXPECT_NEAR(elongation(result.films) / before, 1, 0.03);  // 10 % without the step in advance
 }
 
 TEST(Reconstruct, SplitsADumbbellWhoseNeckIsThinnerThanTheGrid) {
