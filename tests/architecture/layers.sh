@@ -24,6 +24,7 @@ for model in interface flow transport meshing drainage rupture optics io; do
 done
 allowed[simulation]="${allowed[io]} interface flow transport meshing drainage rupture optics io"
 allowed[config]="${allowed[simulation]} simulation"
+allowed[verification]="${allowed[simulation]} simulation"
 
 for path in spume/*/; do
   folder=$(basename "$path")
