@@ -3,84 +3,71 @@
 #include <cmath>
 #include <vector>
 
-#include "spume/mesh/measure.hpp"
-#include "spume/verification/foam_run.hpp"
-#include "spume/verification/modes.hpp"
+#include "spume/verification/oscillation.hpp"
 #include "spume/verification/tables.hpp"
 
 namespace spume::verification {
 
 namespace {
 
-struct Oscillation {
-  Decay fit;  ///< in units of the capillary time
-  double
-      energy_growth;  ///< largest rise of film and kinetic energy above an earlier value, of the wave's own
-};
+const std::string law = "exact viscous law of the mode";
 
-/// A bubble of unit radius with mode n of relative amplitude 0.02 in a box four radii wide, for `periods`.
-Oscillation oscillate(const parallel::Communicator& communicator, int n, double viscosity,
-                      int cells_per_radius, double periods) {
-  constexpr double amplitude = 0.02;
-  const Units units = units_of_viscosity(viscosity);
-  const double radius = units.radius;
-  FoamRun run(communicator, cube_case(units, 4 * cells_per_radius, cells_per_radius), 1,
-              [&](mesh::Phase phase, const Vec3& x) {
-                const double r = norm(x), cosine = r > 0 ? x.z / r : 1;
-                const double outwards = r - radius * (1 + amplitude * std::legendre(n, cosine));
-                return phase == 0 ? 0.5 * outwards : -0.5 * outwards;
-              });
-  const Decay exact = bubble_mode(n, 1, {1, viscosity, 1});
-  std::vector<double> time, value;
-  double least_energy = 1e300, first_energy = 0, growth = 0;
-  const double rest_area =
-      4 * std::numbers::pi *
-      std::pow(3 / (4 * std::numbers::pi) * mesh::phase_volumes(run.foam().films, 2)[1], 2.0 / 3);
-  run.move_until(periods * 2 * std::numbers::pi / exact.omega * units.time(),
-                 [&](const simulation::MotionStep& step) {
-                   time.push_back(run.foam().time / units.time());
-                   value.push_back(mode_amplitude(run.foam().films, 1, n) / radius);
-                   const double energy = step.kinetic_energy + units.tension * (step.film_area - rest_area);
-                   if (time.size() == 1) first_energy = energy;
-                   growth = std::max(growth, (energy - least_energy) / first_energy);
-                   least_energy = std::min(least_energy, energy);
-                   return true;
-                 });
-  // The first quarter of a period has the transient of the layer around the film.
-  std::size_t first = 0;
-  while (time[first] < 0.25 * 2 * std::numbers::pi / exact.omega) ++first;
-  return {fit_damped_cosine(std::span(time).subspan(first), std::span(value).subspan(first), exact), growth};
+/// Gives the error of the frequency, relative.
+double one(const parallel::Communicator& communicator, const OscillationSetting& setting, Report& report) {
+  const Decay exact = bubble_mode(setting.mode, 1, {1, setting.viscosity, 1});
+  const Oscillation got = oscillate(communicator, setting);
+  const std::string what =
+      fmt::format("mode {}, μ = {}, R = {} h: ", setting.mode, setting.viscosity, setting.cells_per_radius);
+  report.note(fmt::format("Stokes layer of {:.1f} cells; {} reconstructions", stokes_layer_cells(setting),
+                          got.n_reconstructions));
+  if (stokes_layer_cells(setting) >= 3) {
+    report.relative(what + "ω", got.fit.omega, exact.omega, 0.01, law);
+    report.relative(what + "γ", got.fit.gamma, exact.gamma, 0.04, law);
+  } else {
+    report.told(what + "ω", got.fit.omega, law, exact.omega);
+    report.told(what + "γ", got.fit.gamma, law, exact.gamma);
+  }
+  return std::abs(got.fit.omega / exact.omega - 1);
 }
 
 }  // namespace
 
 void oscillating_bubble(const parallel::Communicator& communicator, Scale scale, Report& report) {
-  report.note("ρ = 2σ = R = 1, box 4 R wide; frequency ω and damping γ of modes by a fit over two periods");
-  struct Setting {
-    double viscosity;
-    std::vector<int> modes, radii;
+  report.note("ρ = 2σ = R = 1, box 4 R wide; frequency ω and damping γ by a fit over two periods");
+  const bool full = scale == Scale::Full;
+  for (const int mode : full ? std::vector<int>{2, 3, 4} : std::vector<int>{2}) {
+    const double coarse = one(communicator, {mode, 0.05, full ? 8 : 6}, report);
+    const double fine = one(communicator, {mode, 0.05, full ? 16 : 8}, report);
+    report.at_most(fmt::format("mode {}, μ = 0.05: error of ω, finer over coarser grid", mode), fine / coarse,
+                   full ? 0.5 : 1, "convergence");
+  }
+  if (!full) return;
+  for (const int mode : {2, 3, 4}) one(communicator, {mode, 0.01, 16}, report);
+  one(communicator, {2, 0.001, 16}, report);
+
+  const Oscillation ten = oscillate(communicator, {2, 0.001, 8, 10});
+  report.at_most("mode 2, μ = 0.001, R = 8 h: growth of energy in 10 periods", ten.growth, 0.01,
+                 "energy of the wave only falls");
+}
+
+void reconstruction_damping(const parallel::Communicator& communicator, Scale, Report& report) {
+  report.note("mode 2 of a bubble, R = 8 h, La = 1e3, reconstructed at fixed intervals for two periods");
+  const double viscosity = std::sqrt(2 / 1e3);
+  const auto every = [&](int steps) {
+    return oscillate(communicator,
+                     {.mode = 2, .viscosity = viscosity, .cells_per_radius = 8, .reconstruct_every = steps});
   };
-  const std::vector<Setting> settings =
-      scale == Scale::Full
-          ? std::vector<Setting>{{0.05, {2, 3, 4}, {8, 16}}, {0.01, {2, 3, 4}, {16}}, {0.001, {2}, {16}}}
-          : std::vector<Setting>{{0.05, {2}, {6, 8}}};
-  for (const auto& [viscosity, modes, radii] : settings)
-    for (const int n : modes) {
-      const Decay exact = bubble_mode(n, 1, {1, viscosity, 1});
-      for (const int cells_per_radius : radii) {
-        const double layer_cells = std::sqrt(2 * viscosity / exact.omega) * cells_per_radius;
-        const Oscillation got = oscillate(communicator, n, viscosity, cells_per_radius, 2);
-        const std::string what = fmt::format("mode {}, μ = {}, R = {} h", n, viscosity, cells_per_radius);
-        report.note(fmt::format("{}: Stokes layer of {:.1f} cells", what, layer_cells));
-        if (layer_cells >= 3) {
-          report.relative(what + ": ω", got.fit.omega, exact.omega, 0.01, "exact viscous law");
-          report.relative(what + ": γ", got.fit.gamma, exact.gamma, 0.04, "exact viscous law");
-        } else {
-          report.told(what + ": ω", got.fit.omega, "exact viscous law", exact.omega);
-          report.told(what + ": γ", got.fit.gamma, "exact viscous law", exact.gamma);
-        }
-      }
-    }
+  const Oscillation never = every(1000000), rarely = every(20), often = every(5);
+  const Decay exact = bubble_mode(2, 1, {1, viscosity, 1});
+  report.told("γ, never", never.fit.gamma, law, exact.gamma);
+  report.told(fmt::format("γ, every 20 steps ({} times)", rarely.n_reconstructions), rarely.fit.gamma, law,
+              exact.gamma);
+  report.told(fmt::format("γ, every 5 steps ({} times)", often.n_reconstructions), often.fit.gamma, law,
+              exact.gamma);
+  report.at_most("γ every 5 steps over γ every 20", often.fit.gamma / rarely.fit.gamma, 1.04,
+                 "reconstruction is neutral");
+  report.absolute("ω every 5 steps over ω every 20", often.fit.omega / rarely.fit.omega, 1, 0.01,
+                  "reconstruction is neutral");
 }
 
 }  // namespace spume::verification

@@ -15,5 +15,13 @@ StudyRun double_bubble;
 StudyRun unequal_double_bubble;
 StudyRun triple_bubble;
 StudyRun tetrahedral_cluster;
+StudyRun equilibrium_convergence;
+StudyRun reconstruction_damping;
+StudyRun capillary_wave;
+StudyRun bubble_volumes;
+StudyRun robustness;
+StudyRun fig12_area;
+StudyRun fig13_oscillation;
+StudyRun taylor_green;
 
 }  // namespace spume::verification

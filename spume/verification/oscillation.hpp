@@ -1,0 +1,31 @@
+#pragma once
+
+#include "spume/parallel/communicator.hpp"
+#include "spume/verification/exact_waves.hpp"
+
+namespace spume::verification {
+
+/// A bubble of radius R in a box four radii wide that starts from rest with mode n of relative amplitude
+/// 0.02, in units ρ = 2σ = R = 1.
+struct OscillationSetting {
+  int mode;
+  double viscosity;
+  int cells_per_radius;
+  double periods = 2;
+  int reconstruct_every = 0;  ///< steps; 0: as the program would
+};
+
+struct Oscillation {
+  Decay fit;      ///< of the amplitude, from a quarter of a period on
+  double growth;  ///< largest rise of film and kinetic energy above an earlier value, over the wave's first
+                  ///< energy
+  int n_reconstructions;
+};
+
+/// Collective.
+Oscillation oscillate(const parallel::Communicator& communicator, const OscillationSetting& setting);
+
+/// Thickness of the layer that a mode stirs, sqrt(2ν/ω), in cells.
+double stokes_layer_cells(const OscillationSetting& setting);
+
+}  // namespace spume::verification
