@@ -70,29 +70,24 @@ std::optional<Vec3> film_direction(const mesh::FilmMesh& films, const std::vecto
   return dot(direction, out) > 0 ? direction : -direction;
 }
 
-/// Tangent of a border at its end at x: a parabola in the distance from x through its vertices.
+/// Tangent of a border at its end x: the parabola x + as + bs² in the distance s from x that fits its
+/// vertices best.
 std::optional<Vec3> border_direction(const mesh::FilmMesh& films, const std::vector<int>& line,
                                      bool from_front, double reach) {
   const int n_line = static_cast<int>(line.size());
   const auto at = [&](int n) { return films.position[line[from_front ? n : n_line - 1 - n]]; };
-  const Vec3 x = at(0);
-  std::vector<double> length;
   std::vector<Vec3> place;
-  double s = 0;
-  for (int n = 1; n < n_line; ++n) {
-    s += norm(at(n) - at(n - 1));
-    if (s > reach) break;
-    length.push_back(s / reach);
-    place.push_back(at(n) - x);
-  }
-  if (length.size() < 4) return {};
-  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(length.size()), 3), right(matrix.rows(), 3);
+  for (int n = 1; n < n_line && norm(at(n) - at(0)) < reach; ++n) place.push_back(at(n) - at(0));
+  constexpr std::size_t fewest = 3;
+  if (place.size() < fewest) return {};
+  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(place.size()), 2), right(matrix.rows(), 3);
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    matrix.row(i) << 1, length[i], length[i] * length[i];
+    const double s = norm(place[i]) / reach;
+    matrix.row(i) << s, s * s;
     right.row(i) << place[i].x, place[i].y, place[i].z;
   }
   const Eigen::MatrixXd c = matrix.colPivHouseholderQr().solve(right);
-  return normalized(Vec3{c(1, 0), c(1, 1), c(1, 2)});
+  return normalized(Vec3{c(0, 0), c(0, 1), c(0, 2)});
 }
 
 void add_film_angles(const mesh::FilmMesh& films, const mesh::Topology& topology, double reach, double edge,
@@ -141,7 +136,7 @@ PlateauAngles plateau_angles(const mesh::FilmMesh& films, const mesh::Topology& 
                              double edge) {
   Deviations film, border;
   add_film_angles(films, topology, reach, edge, film);
-  add_border_angles(films, topology, reach, border);
+  add_border_angles(films, topology, 1.5 * reach, border);
   return {.film_rms = film.rms(),
           .film_largest = film.largest,
           .border_rms = border.rms(),

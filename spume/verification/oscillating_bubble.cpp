@@ -33,7 +33,7 @@ double one(const parallel::Communicator& communicator, const OscillationSetting&
 }  // namespace
 
 void oscillating_bubble(const parallel::Communicator& communicator, Scale scale, Report& report) {
-  report.note("ρ = 2σ = R = 1, box 4 R wide; frequency ω and damping γ by a fit over two periods");
+  report.note("ρ = 2σ = R = 1, box 4 R wide; frequency ω and damping γ by a fit from 1 to 2.5 periods");
   const bool full = scale == Scale::Full;
   for (const int mode : full ? std::vector<int>{2, 3, 4} : std::vector<int>{2}) {
     const double coarse = one(communicator, {mode, 0.05, full ? 8 : 6}, report);
@@ -51,7 +51,7 @@ void oscillating_bubble(const parallel::Communicator& communicator, Scale scale,
 }
 
 void reconstruction_damping(const parallel::Communicator& communicator, Scale, Report& report) {
-  report.note("mode 2 of a bubble, R = 8 h, La = 1e3, reconstructed at fixed intervals for two periods");
+  report.note("mode 2 of a bubble, R = 8 h, La = 1e3, reconstructed at fixed intervals");
   const double viscosity = std::sqrt(2 / 1e3);
   const auto every = [&](int steps) {
     return oscillate(communicator,

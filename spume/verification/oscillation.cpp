@@ -39,7 +39,7 @@ Oscillation oscillate(const parallel::Communicator& communicator, const Oscillat
   const int n = setting.mode, cells = setting.cells_per_radius;
   const Units units = units_of_viscosity(setting.viscosity);
   const double radius = units.radius;
-  auto run_case = cube_case(units, 4 * cells, cells);
+  auto run_case = cube_case(units, setting.box_radii * cells, cells);
   if (setting.reconstruct_every > 0) run_case.rearrangement.reconstruction_interval = 1000000;
   FoamRun run(communicator, run_case, 1, [&](mesh::Phase phase, const Vec3& x) {
     const double r = norm(x), cosine = r > 0 ? x.z / r : 1;
@@ -64,8 +64,8 @@ Oscillation oscillate(const parallel::Communicator& communicator, const Oscillat
         }
         return true;
       });
-  std::size_t first = 0;  // the layer around the film has formed
-  while (time[first] < 0.25 * 2 * pi / exact.omega) ++first;
+  std::size_t first = 0;  // a period on, the layer around the film has formed
+  while (time[first] < 2 * pi / exact.omega) ++first;
   result.fit = fit_damped_cosine(std::span(time).subspan(first), std::span(value).subspan(first), exact);
   result.growth = growth.largest;
   return result;

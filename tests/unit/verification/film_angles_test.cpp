@@ -25,9 +25,8 @@ TEST(PlateauAngles, of_the_exact_cluster_are_right_and_converge) {
   EXPECT_GT(coarse.n_film_angles, 100);
   EXPECT_GE(coarse.n_border_angles, 30);
   EXPECT_LT(fine.film_rms, 0.3);
-  EXPECT_LT(fine.border_largest, 0.7);
+  EXPECT_LT(fine.border_largest, 1e-6);  // borders are circles, whose chords a parabola through the end fits
   EXPECT_LT(fine.film_rms, 0.5 * coarse.film_rms);
-  EXPECT_LT(fine.border_rms, 0.5 * coarse.border_rms);
 }
 
 // Stretching along one axis by 2 % turns a direction at 45° to it by 0.57°.
