@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <vector>
 
-#include "spume/mesh/measure.hpp"
 #include "spume/verification/foam_run.hpp"
 #include "spume/verification/modes.hpp"
 
@@ -16,16 +16,24 @@ namespace {
 
 using std::numbers::pi;
 
-/// Rises of an energy above its least value so far.
-struct Growth {
-  double first = 0, least = 0, largest = 0;
-
-  void add(double energy, bool is_first) {
-    if (is_first) first = least = energy;
-    largest = std::max(largest, (energy - least) / first);
-    least = std::min(least, energy);
+/// Largest rise from the mean over one period to that over the next, over the fall from the first to the
+/// last; 0 where there are less than two whole periods. Means, because the film is known at whole steps and
+/// the gas at half steps: within a period their sum wavers.
+double growth_of(std::span<const double> time, std::span<const double> energy, double period) {
+  const int n_periods = static_cast<int>(time.back() / period + 1e-9);
+  std::vector<double> sum(n_periods, 0.0), count(n_periods, 0.0);
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    const int m = static_cast<int>(time[i] / period);
+    if (m >= n_periods) break;
+    sum[m] += energy[i];
+    ++count[m];
   }
-};
+  if (n_periods < 2) return 0;
+  double rise = 0;
+  const double fall = sum[0] / count[0] - sum[n_periods - 1] / count[n_periods - 1];
+  for (int m = 1; m < n_periods; ++m) rise = std::max(rise, sum[m] / count[m] - sum[m - 1] / count[m - 1]);
+  return fall > 0 ? rise / fall : std::numeric_limits<double>::infinity();
+}
 
 }  // namespace
 
@@ -35,7 +43,6 @@ double stokes_layer_cells(const OscillationSetting& setting) {
 }
 
 Oscillation oscillate(const parallel::Communicator& communicator, const OscillationSetting& setting) {
-  constexpr double amplitude = 0.02;
   const int n = setting.mode, cells = setting.cells_per_radius;
   const Units units = units_of_viscosity(setting.viscosity);
   const double radius = units.radius;
@@ -43,31 +50,28 @@ Oscillation oscillate(const parallel::Communicator& communicator, const Oscillat
   if (setting.reconstruct_every > 0) run_case.rearrangement.reconstruction_interval = 1000000;
   FoamRun run(communicator, run_case, 1, [&](mesh::Phase phase, const Vec3& x) {
     const double r = norm(x), cosine = r > 0 ? x.z / r : 1;
-    const double outwards = r - radius * (1 + amplitude * std::legendre(n, cosine));
+    const double outwards = r - radius * (1 + setting.amplitude * std::legendre(n, cosine));
     return phase == 0 ? 0.5 * outwards : -0.5 * outwards;
   });
   const Decay exact = bubble_mode(n, 1, {1, setting.viscosity, 1});
-  const double volume = mesh::phase_volumes(run.foam().films, 2)[1];
-  const double rest_area = 4 * pi * std::pow(3 * volume / (4 * pi), 2.0 / 3);
-  std::vector<double> time, value;
-  Growth growth;
+  const double period = 2 * pi / exact.omega;
+  std::vector<double> time, value, energy;
   Oscillation result{};
-  run.move_until(
-      setting.periods * 2 * pi / exact.omega * units.time(), [&](const simulation::MotionStep& step) {
-        growth.add(step.kinetic_energy + units.tension * (step.film_area - rest_area), time.empty());
-        time.push_back(run.foam().time / units.time());
-        value.push_back(mode_amplitude(run.foam().films, 1, n) / radius);
-        result.n_reconstructions += step.reconstructed;
-        if (setting.reconstruct_every > 0 && time.size() % setting.reconstruct_every == 0) {
-          run.reconstruct();
-          ++result.n_reconstructions;
-        }
-        return true;
-      });
+  run.move_until(setting.periods * period * units.time(), [&](const simulation::MotionStep& step) {
+    energy.push_back(step.kinetic_energy + units.tension * step.film_area);
+    time.push_back(run.foam().time / units.time());
+    value.push_back(mode_amplitude(run.foam().films, 1, n) / radius);
+    result.n_reconstructions += step.reconstructed;
+    if (setting.reconstruct_every > 0 && time.size() % setting.reconstruct_every == 0) {
+      run.reconstruct();
+      ++result.n_reconstructions;
+    }
+    return true;
+  });
   std::size_t first = 0;  // a period on, the layer around the film has formed
-  while (time[first] < 2 * pi / exact.omega) ++first;
+  while (time[first] < period) ++first;
   result.fit = fit_damped_cosine(std::span(time).subspan(first), std::span(value).subspan(first), exact);
-  result.growth = growth.largest;
+  result.growth = growth_of(time, energy, period);
   return result;
 }
 

@@ -11,8 +11,9 @@ struct OscillationSetting {
   int mode;
   double viscosity;
   int cells_per_radius;
+  double amplitude = 0.02;  ///< at the start, over R
   double periods = 2.5;
-  int box_radii = 4;          ///< width of the box over R
+  int box_radii = 5;          ///< width of the box over R
   int reconstruct_every = 0;  ///< steps; 0: as the program would
 };
 
@@ -20,8 +21,8 @@ struct Oscillation {
   /// Of the amplitude, from one period on: there the exact solution that starts from rest is within 0.04 %
   /// (ω) and 1 % (γ) of its normal mode.
   Decay fit;
-  double growth;  ///< largest rise of film and kinetic energy above an earlier value, over the wave's first
-                  ///< energy
+  /// Largest rise of film and kinetic energy from one period to the next, over their fall in all periods.
+  double growth;
   int n_reconstructions;
 };
 

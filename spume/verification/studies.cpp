@@ -19,6 +19,8 @@ const std::vector<Study>& studies() {
        tetrahedral_cluster},
       {"quasistatic", "clusters of two to 27 bubbles relaxed without gas",
        "closed-form geometry; an independent minimiser for five bubbles", 65, 10, quasistatic},
+      {"bubble-volumes", "volume of every bubble while twenty rearrange", "nothing is lost", 120, 40,
+       bubble_volumes},
       {"oscillating-bubble", "frequency and damping of modes 2, 3, 4 of a bubble", "exact viscous law", 300,
        10, oscillating_bubble},
       {"static-currents", "spurious currents of exact clusters at rest",
