@@ -25,6 +25,14 @@ const std::vector<Study>& studies() {
        10, oscillating_bubble},
       {"static-currents", "spurious currents of exact clusters at rest",
        "a foam in equilibrium does not move", 300, 30, static_currents},
+      {"fig12-area", "film area after a cluster loses a film", "the paper's Fig. 12; equilibrium without gas",
+       300, 50, fig12_area},
+      {"fig13-oscillation", "frequency of a bubble merged from two", "the paper's Fig. 13; exact viscous law",
+       300, 40, fig13_oscillation},
+      {"equilibrium-convergence", "order of equilibria over 32³, 48³, 64³, 96³", geometry, 400, 40,
+       equilibrium_convergence},
+      {"robustness", "twenty random clusters merge film by film to one bubble",
+       "conforming, whole, energy falls", 1500, 100, robustness},
   };
   return all;
 }
