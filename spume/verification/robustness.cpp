@@ -25,7 +25,7 @@ struct Outcome {
   int n_nonconforming = 0;  ///< edges, summed over the meshes after every step
   double energy_rise =
       0;  ///< largest of film and kinetic energy in a step without a topological change, over 2σA
-  double energy_jump = 0;  ///< the same in steps with one
+  double energy_jump = -1;  ///< the same in steps with one
   long n_split = 0, n_absorbed = 0, n_lost = 0, n_pocket = 0;
   std::optional<std::string> failure;
 };
