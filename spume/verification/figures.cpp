@@ -62,7 +62,8 @@ void fig12_area(const parallel::Communicator& communicator, Scale scale, Report&
   report.told("area without the film [m²]", torn, "the start");
   report.relative("mean area late in the run [m²]", late_sum / late_time, rest, 5e-3,
                   "the smaller cluster in equilibrium (relaxed without gas)");
-  report.at_least("waves of the area", count_waves(area, 1e-3 * rest), 3, "Fig. 12: capillary waves");
+  report.at_least("waves of the area, above a hundredth of its fall", count_waves(area, 0.01 * (torn - rest)),
+                  3, "Fig. 12: capillary waves");
   report.at_most("equilibrium area over the area at the start", rest / torn, 1, "area only falls");
 }
 
@@ -86,19 +87,20 @@ void fig13_oscillation(const parallel::Communicator& communicator, Scale scale, 
   const Decay exact = bubble_mode(2, merged, gas);
   const double period = 2 * std::numbers::pi / exact.omega;
   std::vector<double> time, value;
-  run.move_until((full ? 10 : 6) * period, [&](const simulation::MotionStep&) {
+  run.move_until((full ? 16 : 12) * period, [&](const simulation::MotionStep&) {
     time.push_back(run.foam().time);
     value.push_back(mode_amplitude(run.foam().films, 1, 2));
     return true;
   });
   std::size_t first = 0;
-  while (time[first] < 0.6 * time.back()) ++first;
+  while (time[first] < 0.65 * time.back()) ++first;  // the first swings are too wide for the linear law
   const auto late = std::span(value).subspan(first);
   const Decay fit = fit_damped_cosine(std::span(time).subspan(first), late, exact);
   report.told("largest amplitude in the fit over the radius", std::ranges::max(late) / merged,
               "small: linear law");
   report.relative("frequency of mode 2 [Hz]", fit.omega / (2 * std::numbers::pi),
-                  exact.omega / (2 * std::numbers::pi), 0.03, "exact viscous law of the merged bubble");
+                  exact.omega / (2 * std::numbers::pi), full ? 0.03 : 0.1,
+                  "exact viscous law of the merged bubble");
   report.told("damping of mode 2 [1/s]", fit.gamma, "the same; its layer is thinner than a cell",
               exact.gamma);
   report.absolute("bubbles", run.foam().phases.n_bubbles(), 1, 0, "Fig. 13");

@@ -32,7 +32,7 @@ const std::vector<Study>& studies() {
       {"equilibrium-convergence", "order of equilibria over 32³, 48³, 64³, 96³", geometry, 400, 40,
        equilibrium_convergence},
       {"robustness", "twenty random clusters merge film by film to one bubble",
-       "conforming, whole, energy falls", 1500, 100, robustness},
+       "conforming, whole, energy falls", 1500, 150, robustness},
   };
   return all;
 }
