@@ -29,7 +29,7 @@ void equilibrium_convergence(const parallel::Communicator& communicator, Scale s
   };
   report.absolute("order of the area, coarsest to finest", order(&ClusterErrors::area), 2, 0.4,
                   "second order");
-  report.at_least("order of the pressure, coarsest to finest", order(&ClusterErrors::pressure), 1.6,
+  report.at_least("order of the border length, coarsest to finest", order(&ClusterErrors::border_length), 1.6,
                   "second order");
 }
 
