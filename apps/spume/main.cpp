@@ -43,6 +43,7 @@ ExitCode run_program(int argc, char** argv, const parallel::Communicator& commun
   add_describe(program, communicator);
   add_info(program, communicator);
   add_render(program, communicator);
+  add_verify(program, communicator);
 
   const auto say = [&](const char* what, const std::exception& error) {
     if (communicator.is_root()) std::fprintf(stderr, "%s%s\n", what, error.what());
@@ -53,6 +54,9 @@ ExitCode run_program(int argc, char** argv, const parallel::Communicator& commun
   } catch (const CLI::ParseError& error) {
     return answer(program, error, communicator.is_root());
   } catch (const InputError& error) {
+    say("", error);
+    return wrong_input;
+  } catch (const FailedCheck& error) {
     say("", error);
     return wrong_input;
   } catch (const Interrupted& error) {

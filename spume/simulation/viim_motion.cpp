@@ -18,18 +18,12 @@ ViimMotion::ViimMotion(const grid::Grid& grid, const Case& run_case, const state
                   .rebuild_displacement = run_case.rearrangement.reconstruction_displacement},
                  foam.films, io::rasterize_phases(foam.films, foam.phases.count(), grid.box())) {}
 
-double ViimMotion::move(RunState& run, const grid::VectorField& velocity, const grid::KernelCoupling& kernel,
-                        double dt, mesh::Topology& topology, Witness& witness) {
-  state::Foam& foam = run.foam;
+ViimStep ViimMotion::move(state::Foam& foam, const grid::VectorField& velocity,
+                          const grid::KernelCoupling& kernel, double dt) {
   auto reconstruction = evolution_.move(foam.films, foam.phases, velocity, kernel, dt, case_.reconstruct);
   interface::carry(foam.films, velocity, kernel, dt);
   const double area_carried = mesh::film_area(foam.films);
-  FilmUpdate update = take_over(case_, h_, std::move(reconstruction), foam);
-  witness.events(update.events);
-  run.rearrange.reference = foam.films.position;
-  run.rearrange.steps_since_reconstruction = 0;
-  topology = std::move(update.topology);
-  return area_carried;
+  return {area_carried, take_over(case_, h_, std::move(reconstruction), foam)};
 }
 
 }  // namespace spume::simulation

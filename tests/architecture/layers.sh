@@ -26,6 +26,7 @@ done
 allowed[viim]="${allowed[interface]} interface"
 allowed[simulation]="${allowed[io]} interface viim flow transport meshing drainage rupture optics io"
 allowed[config]="${allowed[simulation]} simulation"
+allowed[verification]="${allowed[simulation]} simulation"
 
 for path in spume/*/; do
   folder=$(basename "$path")

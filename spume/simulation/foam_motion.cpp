@@ -1,0 +1,119 @@
+#include "spume/simulation/foam_motion.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "spume/interface/carry.hpp"
+#include "spume/mesh/measure.hpp"
+#include "spume/mesh/volume_constraint.hpp"
+#include "spume/simulation/equilibrium.hpp"
+
+namespace spume::simulation {
+
+FoamMotion::FoamMotion(const grid::Grid& grid, const Case& run_case, RunState& run)
+    : grid_(grid),
+      case_(run_case),
+      run_(run),
+      gas_(grid, run_case.materials.gas, run_case.flow),
+      spreader_(grid),
+      force_(grid),
+      film_velocity_(grid),
+      topology_(mesh::build_topology(run.foam.films)) {
+  if (run.rearrange.reference.empty()) run.rearrange.reference = run.foam.films.position;
+  if (run_case.rearrangement.interface == RearrangementParameters::Interface::Viim)
+    viim_.emplace(grid, run_case, run.foam);
+}
+
+flow::StepLimit FoamMotion::choose_step() const {
+  const auto& parameters = case_.rearrangement;
+  const flow::StepLimit limits[] = {
+      flow::capillary_limit(grid_.h(), case_.materials, parameters.capillary_factor),
+      gas_.advection_limit(run_.foam.gas, parameters.cfl),
+      {parameters.max_time - run_.rearrange.elapsed, "end of the stage"},
+      {case_.cycle.end_time - run_.foam.time, "end of the run"}};
+  return *std::min_element(std::begin(limits), std::end(limits),
+                           [](const auto& a, const auto& b) { return a.dt < b.dt; });
+}
+
+double FoamMotion::largest_motion() const {
+  double largest = 0;
+  for (std::size_t v = 0; v < run_.rearrange.reference.size(); ++v)
+    largest = std::max(largest, norm(run_.foam.films.position[v] - run_.rearrange.reference[v]));
+  return largest;
+}
+
+/// Vertices drift along films that are at rest; borders have no such direction.
+double FoamMotion::largest_normal_motion() const {
+  const auto& films = run_.foam.films;
+  std::vector<Vec3> normal(films.position.size());
+  for (int t = 0; t < films.n_triangles(); ++t)
+    for (int v : films.triangle[t].vertex) normal[v] += mesh::doubled_area_normal(films, t);
+  double largest = 0;
+  for (std::size_t v = 0; v < run_.rearrange.reference.size(); ++v) {
+    const Vec3 motion = films.position[v] - run_.rearrange.reference[v];
+    const bool in_film = topology_.vertex_kind[v] == mesh::VertexKind::Film;
+    largest = std::max(largest, in_film ? std::abs(dot(motion, normalized(normal[v]))) : norm(motion));
+  }
+  return largest;
+}
+
+bool FoamMotion::needs_reconstruction() const {
+  const auto& parameters = case_.rearrangement;
+  if (largest_motion() > parameters.reconstruction_displacement * grid_.h()) return true;
+  constexpr double moving = 0.25;  // a foam at rest is left alone: every reconstruction gives it a small kick
+  return run_.rearrange.steps_since_reconstruction >= parameters.reconstruction_interval &&
+         largest_normal_motion() > moving * grid_.h();
+}
+
+FilmUpdate FoamMotion::reconstruct() {
+  FilmUpdate update = reconstruct_films(grid_, case_, run_.foam);
+  run_.rearrange.reference = run_.foam.films.position;
+  run_.rearrange.steps_since_reconstruction = 0;
+  topology_ = update.topology;
+  return update;
+}
+
+/// Moves the films with the gas, restores their volumes and reconstructs them where that is due. Gives their
+/// area before corrections [m²].
+double FoamMotion::carry_films(double dt, std::vector<state::Event>& events) {
+  auto& foam = run_.foam;
+  gas_.film_velocity(foam.gas, film_velocity_);
+  if (viim_) {
+    ViimStep moved = viim_->move(foam, film_velocity_, kernel_, dt);
+    topology_ = std::move(moved.update.topology);
+    events = std::move(moved.update.events);
+    run_.rearrange.reference = foam.films.position;
+    run_.rearrange.steps_since_reconstruction = 0;
+    return moved.area_carried;
+  }
+  interface::carry(foam.films, film_velocity_, kernel_, dt);
+  ++run_.rearrange.steps_since_reconstruction;
+  const double area_carried = mesh::film_area(foam.films);
+  if (case_.rearrangement.conserve_volumes)
+    mesh::restore_volumes(foam.films, foam.phases.target_volume, 1, 0.1 * grid_.h());
+  if (needs_reconstruction()) events = reconstruct().events;
+  return area_carried;
+}
+
+MotionStep FoamMotion::step() {
+  auto& foam = run_.foam;
+  const double sigma = case_.materials.film.surface_tension;
+  const auto forces = flow::film_forces(foam.films, topology_, foam.phases.count(), sigma);
+  spreader_.spread(foam.films, forces, kernel_, force_);
+
+  MotionStep done{.limit = choose_step(), .events = {}};
+  done.virial = virial_ratio(foam.films, foam.phases, forces.pressure, mesh::film_area(foam.films), sigma);
+  gas_.step(foam.gas, force_, done.limit.dt);
+  const double area_carried = carry_films(done.limit.dt, done.events);
+  foam.time += done.limit.dt;
+  run_.rearrange.elapsed += done.limit.dt;
+  done.reconstructed = run_.rearrange.steps_since_reconstruction == 0;
+  transport::fill_young_films(foam.films, topology_, foam.liquid, grid_.h(), case_.transport);
+
+  done.film_area = mesh::film_area(foam.films);
+  done.kinetic_energy = flow::kinetic_energy(foam.gas, case_.materials.gas.density);
+  done.correction = 2 * sigma * (done.film_area - area_carried);
+  return done;
+}
+
+}  // namespace spume::simulation

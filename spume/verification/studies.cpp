@@ -1,0 +1,50 @@
+#include "spume/base/error.hpp"
+#include "spume/verification/tables.hpp"
+
+namespace spume::verification {
+
+const std::vector<Study>& studies() {
+  const char* const geometry = "closed-form geometry, Young-Laplace";
+  static const std::vector<Study> all{
+      {"taylor-green", "order of the gas flow on carried vortices", "closed-form flows", 15, 2, taylor_green},
+      {"reconstruction-damping", "an oscillating bubble, reconstructed often and rarely",
+       "reconstruction takes no energy", 20, 20, reconstruction_damping},
+      {"reconstruction", "the exact tetrahedral cluster, reconstructed 1 and 20 times without flow",
+       "closed-form geometry, Plateau's laws", 40, 5, reconstruction},
+      {"double-bubble", "two equal spheres to rest by gas dynamics", geometry, 50, 10, double_bubble},
+      {"unequal-double-bubble", "two spheres of volumes 1:2 to rest by gas dynamics", geometry, 50, 10,
+       unequal_double_bubble},
+      {"triple-bubble", "three equal spheres to rest by gas dynamics", geometry, 60, 10, triple_bubble},
+      {"tetrahedral-cluster", "four equal spheres to rest by gas dynamics", geometry, 60, 10,
+       tetrahedral_cluster},
+      {"quasistatic", "clusters of two to 27 bubbles relaxed without gas",
+       "closed-form geometry; an independent minimiser for five bubbles", 65, 10, quasistatic},
+      {"bubble-volumes", "volume of every bubble while twenty rearrange", "nothing is lost", 120, 40,
+       bubble_volumes},
+      {"oscillating-bubble", "frequency and damping of modes 2, 3, 4 of a bubble", "exact viscous law", 300,
+       10, oscillating_bubble},
+      {"static-currents", "spurious currents of exact clusters at rest",
+       "a foam in equilibrium does not move", 300, 30, static_currents},
+      {"fig12-area", "film area after a cluster loses a film", "the paper's Fig. 12; equilibrium without gas",
+       300, 50, fig12_area},
+      {"fig13-oscillation", "frequency of a bubble merged from two", "the paper's Fig. 13; exact viscous law",
+       300, 40, fig13_oscillation},
+      {"equilibrium-convergence", "order of equilibria over 32³, 48³, 64³, 96³", geometry, 400, 40,
+       equilibrium_convergence},
+      {"robustness", "twenty random clusters merge film by film to one bubble",
+       "conforming, whole, energy falls", 1500, 150, robustness},
+  };
+  return all;
+}
+
+void run(const Study& study, const parallel::Communicator& communicator, Scale scale, Report& report) {
+  report.begin(study.name, study.summary, scale == Scale::Full ? study.seconds : study.small_seconds);
+  try {
+    study.run(communicator, scale, report);
+  } catch (const NumericalError& error) {
+    report.failed(error.what());
+  }
+  report.end();
+}
+
+}  // namespace spume::verification

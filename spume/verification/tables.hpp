@@ -1,0 +1,27 @@
+#pragma once
+
+#include "spume/verification/study.hpp"
+
+/// The studies themselves, one function each; studies.cpp says what they are.
+namespace spume::verification {
+
+using StudyRun = void(const parallel::Communicator&, Scale, Report&);
+
+StudyRun static_currents;
+StudyRun oscillating_bubble;
+StudyRun reconstruction;
+StudyRun quasistatic;
+StudyRun double_bubble;
+StudyRun unequal_double_bubble;
+StudyRun triple_bubble;
+StudyRun tetrahedral_cluster;
+StudyRun equilibrium_convergence;
+StudyRun reconstruction_damping;
+StudyRun capillary_wave;
+StudyRun bubble_volumes;
+StudyRun robustness;
+StudyRun fig12_area;
+StudyRun fig13_oscillation;
+StudyRun taylor_green;
+
+}  // namespace spume::verification
