@@ -42,17 +42,24 @@ double FoamMotion::largest_motion() const {
   return largest;
 }
 
-/// Vertices drift along films that are at rest; borders have no such direction.
+/// Vertices drift within films and along borders that are at rest: that does not count here.
 double FoamMotion::largest_normal_motion() const {
   const auto& films = run_.foam.films;
-  std::vector<Vec3> normal(films.position.size());
+  std::vector<Vec3> normal(films.position.size()), tangent(films.position.size());
   for (int t = 0; t < films.n_triangles(); ++t)
     for (int v : films.triangle[t].vertex) normal[v] += mesh::doubled_area_normal(films, t);
+  for (const auto& edge : topology_.border_edge) {
+    const Vec3 along = films.edge(edge.vertex[0], edge.vertex[1]);
+    for (int v : edge.vertex) tangent[v] += dot(tangent[v], along) < 0 ? -along : along;
+  }
   double largest = 0;
   for (std::size_t v = 0; v < run_.rearrange.reference.size(); ++v) {
     const Vec3 motion = films.position[v] - run_.rearrange.reference[v];
-    const bool in_film = topology_.vertex_kind[v] == mesh::VertexKind::Film;
-    largest = std::max(largest, in_film ? std::abs(dot(motion, normalized(normal[v]))) : norm(motion));
+    const Vec3 n = normalized(normal[v]), t = normalized(tangent[v]);
+    double across = norm(motion);
+    if (topology_.vertex_kind[v] == mesh::VertexKind::Film) across = std::abs(dot(motion, n));
+    if (topology_.vertex_kind[v] == mesh::VertexKind::Border) across = norm(motion - dot(motion, t) * t);
+    largest = std::max(largest, across);
   }
   return largest;
 }

@@ -120,7 +120,9 @@ class Search {
       for (const Index3& c : front) queued[whole_.offset(c.i, c.j, c.k)] = false;
       for (const Index3& c : front) {
         const int triangle = nearest_[whole_.offset(c.i, c.j, c.k)];
-        const interface::CellBox around = interface::grown({c, {c.i + 1, c.j + 1, c.k + 1}}, 1, box_.cells);
+        const interface::CellBox around = interface::Lattice {
+          box_.cells
+        }.grown({c, {c.i + 1, c.j + 1, c.k + 1}}, 1);
         interface::for_each_cell(around, [&](int i, int j, int k) {
           if (!improve(i, j, k, triangle)) return;
           const std::size_t cell = whole_.offset(i, j, k);

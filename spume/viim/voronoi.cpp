@@ -95,8 +95,9 @@ interface::PhasePotentials voronoi_potentials(const DistanceField& field, double
   interface::PhasePotentials potentials(field.box);
   for (mesh::Phase p = 0; p < n_phases; ++p) {
     if (cores[p].empty()) continue;
-    const CellBox cells =
-        p == 0 ? interface::all_cells(field.box.cells) : interface::grown(cores[p], layers, field.box.cells);
+    const CellBox cells = p == 0 ? interface::all_cells(field.box.cells) : interface::Lattice {
+      field.box.cells
+    }.grown(cores[p], layers);
     potentials.set(potential_of(field, p, cells, epsilon));
   }
   return potentials;
