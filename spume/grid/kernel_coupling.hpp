@@ -19,15 +19,14 @@ enum class Placement { Centres, Faces };
 /// the sampled velocity does on the points. Points are the same on every rank; each rank handles the part of
 /// the kernels over its slab.
 ///
-/// Why −a h² Δ_h: across a film the pressure of a wave exp(ikx) falls off as exp(−k|z|), with a crest that
-/// any positive kernel cuts off. Force and velocity go through the kernel K̂ and through the mean of two
-/// cells, so that a force moves its film by
-///   m(k) = (1/πk) ∫ P(k, q) cos²(q/2) |K̂(k, q)|² dq,   P = sin²(k/2)/(sin²(k/2) + sin²(q/2)),
-/// of what it should (lengths in cells): 0.71 at 16 cells a wavelength for the plain cosine of 1.5 h, a
-/// frequency 15 % too low. `sharpening` is the a for which m = 1 + O(k²): 1.010 at 16 cells, 1.003 at 32.
+/// Why −a h² Δ_h: a kernel without negative part smears forces and velocities by its second moment; with
+/// a = ζ²/(2h²) (1/3 − 2/π²) + 1/8 = 0.272 that of kernel and mean of two cells together vanishes, and a = ¼
+/// also makes up for the seven-point Laplacian of the projection. Linear theory of a plane film wave on the
+/// grid then gives, at a Stokes layer of 3.6 cells, 0.3 % of frequency and 0.2 % of damping (plain: 1.0
+/// and 4.5 %); see docs/decisions/0013.
 struct KernelCoupling {
   double half_width_cells = 1.5;  ///< ζ/h, from 1 to 4; 2ζ/h an integer keeps the partition of unity
-  double sharpening = 0.459617;   ///< a; belongs to ζ = 1.5 h and values on faces
+  double sharpening = 0.25;       ///< a; belongs to ζ = 1.5 h and values on faces
   Placement placement = Placement::Faces;
 
   /// density(x) += Σ_p F_p δ(x − x_p): a force [N] a point becomes a force density [N/m³]. Periodic images

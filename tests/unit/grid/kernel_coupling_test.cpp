@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <complex>
 #include <limits>
 
 #include "boxes.hpp"
@@ -171,39 +173,75 @@ TEST_P(KernelCouplingOn, SharpeningIsTheLaplacianOfTheGrid) {
   for (std::size_t p = 0; p < points.size(); ++p) EXPECT_NEAR(norm(of_sharp[p] - sharpened[p]), 0, 1e-13);
 }
 
-/// Share of a wave's force that reaches its film, see KernelCoupling. `k` in radians a cell.
-double response(double k, const KernelCoupling& coupling) {
+using Complex = std::complex<double>;
+
+double square(double x) {
+  return x * x;
+}
+
+/// Linear theory of a plane film in gas at rest, lengths in cells, ρ = 1: the wave exp(ikx + st) of tension T
+/// and viscosity ν obeys s = −T k² G(s), G the velocity that a force of unit rate gives the film,
+///   G = (1/2π) ∫ P(k, q) cos²(q/2) |K̂(k, q)|² / (s + ν(κ + χ)) dq,  P = κ/(κ + χ),
+/// with κ = 4 sin²(k/2), χ = 4 sin²(q/2): projection, mean of two cells, kernel, viscosity of the grid.
+Complex film_response(double k, Complex s, double nu, const KernelCoupling& coupling) {
   const double pi = std::numbers::pi, zeta = coupling.half_width_cells;
   const auto cosine = [&](double q) {
     const double x = q * zeta, t = x / pi;
     if (std::abs(x) < 1e-9) return 1.0;
-    return std::abs(std::abs(t) - 1) < 1e-9 ? 0.5 : std::sin(x) / (x * (1 - t * t));
+    return std::abs(std::abs(t) - 1) < 1e-7 ? 0.5 : std::sin(x) / (x * (1 - t * t));
   };
-  const auto square = [](double x) { return x * x; };
-  constexpr int n = 4000, n_images = 20;
-  double integral = 0;
+  constexpr int n = 2000, n_images = 6;
+  const double kappa = 4 * square(std::sin(k / 2));
+  Complex integral = 0;
   for (int m = 0; m < n; ++m) {
-    // q = π s⁵ puts most points at small q, where the integrand is a peak of width k.
-    const double s = (m + 0.5) / n, q = pi * std::pow(s, 5), dq = 5 * pi * std::pow(s, 4) / n;
-    double kernel_squared = 0;  // images of the point's place in its cell, averaged over that place
+    // q = π u⁴ puts most points at small q, where the integrand is a peak of width k.
+    const double u = (m + 0.5) / n, q = pi * std::pow(u, 4), dq = 4 * pi * std::pow(u, 3) / n;
+    double kernel_squared = 0;  // images of the film's place in its cell, averaged over that place
     for (int image = -n_images; image <= n_images; ++image)
       kernel_squared += square(cosine(q + 2 * pi * image));
-    const double sharp = 1 + 4 * coupling.sharpening * (square(std::sin(k / 2)) + square(std::sin(q / 2)));
-    const double projected = square(std::sin(k / 2)) / (square(std::sin(k / 2)) + square(std::sin(q / 2)));
-    integral += 2 * projected * square(std::cos(q / 2)) * kernel_squared * square(sharp) * dq;
+    const double chi = 4 * square(std::sin(q / 2));
+    const double sharp = 1 + coupling.sharpening * (kappa + chi);
+    integral += 2 * dq * square(std::cos(q / 2) * sharp * cosine(k)) * kernel_squared * kappa /
+                (kappa + chi) / (s + nu * (kappa + chi));
   }
-  return square(cosine(k)) * integral / (pi * k);
+  return integral / (2 * pi);
 }
 
-TEST(KernelCoupling, SharpeningRestoresTheCrestOfAWavesPressure) {
-  const double error_32 = response(2 * std::numbers::pi / 32, {}) - 1,
-               error_64 = response(2 * std::numbers::pi / 64, {}) - 1;
-  EXPECT_NEAR(error_64, 0, 1e-3);
-  EXPECT_NEAR(std::log2(error_32 / error_64), 2, 0.15);
-  EXPECT_LT(response(2 * std::numbers::pi / 16, {1.5, 0, Placement::Faces}), 0.75);  // without
+/// Newton's method from s.
+template <class Function>
+Complex root(const Function& f, Complex s) {
+  for (int n = 0; n < 40; ++n) {
+    const Complex d = 1e-6 * s, step = f(s) * d / (f(s + d) - f(s));
+    s -= step;
+    if (std::abs(step) < 1e-10 * std::abs(s)) break;
+  }
+  return s;
 }
 
-// Component c of a linear field, given where it lies, is sampled exactly: weights are symmetric in pairs.
+/// Relative errors of frequency and damping of a wave with the inertia of mode 2 of a bubble of R cells, at
+/// ρ = R = 2σ = 1 and the given viscosity.
+std::array<double, 2> wave_errors(double radius, double viscosity, const KernelCoupling& coupling) {
+  const double k = std::cbrt(9.6) / radius, tension = std::pow(radius, 3), nu = viscosity * square(radius);
+  const double omega_squared = tension * std::pow(k, 3) / 2;
+  const Complex exact =
+      root([&](Complex s) { return s * s + omega_squared * (1.0 - k / std::sqrt(k * k + s / nu)); },
+           std::sqrt(omega_squared) * Complex(-0.1, 1));
+  const Complex here =
+      root([&](Complex s) { return s + tension * k * k * film_response(k, s, nu, coupling); }, exact);
+  return {here.imag() / exact.imag() - 1, here.real() / exact.real() - 1};
+}
+
+TEST(KernelCoupling, LinearFilmWavesHaveTheirFrequencyAndDamping) {
+  const auto [frequency, damping] = wave_errors(16, 0.05, {});
+  EXPECT_LT(std::abs(frequency), 0.004);
+  EXPECT_LT(std::abs(damping), 0.004);
+  const auto plain = wave_errors(16, 0.05, {1.5, 0, Placement::Faces});
+  EXPECT_LT(plain[0], -0.009);
+  EXPECT_LT(plain[1], -0.04);
+  // Of second order where the Stokes layer is resolved.
+  EXPECT_NEAR(std::log2(frequency / wave_errors(32, 0.05, {})[0]), 2, 0.3);
+}
+
 TEST(KernelCoupling, FacesLieHalfACellBelowCentres) {
   const Grid grid(Communicator::world(), test_boxes()[0].box);
   VectorField u(grid);
@@ -218,11 +256,10 @@ TEST(KernelCoupling, FacesLieHalfACellBelowCentres) {
   std::vector<Vec3> velocities;
   const std::vector<Vec3> points = random_points(grid.box(), 20);
   KernelCoupling{}.sample(u, points, velocities);
-  // A wave that is sampled by a symmetric kernel is damped; the damping depends on the point's place in its
-  // cell, which differs by half a cell, a little.
+  // The kernel changes the wave's amplitude by some percent; half a cell off would be an error of 0.2.
   for (std::size_t p = 0; p < points.size(); ++p) {
-    EXPECT_NEAR(velocities[p].x, wave(points[p].x), 0.02);
-    EXPECT_NEAR(velocities[p].y, wave(points[p].x), 0.02);
+    EXPECT_NEAR(velocities[p].x, wave(points[p].x), 0.05);
+    EXPECT_NEAR(velocities[p].y, wave(points[p].x), 0.05);
   }
 }
 

@@ -18,6 +18,12 @@ inline grid::Box cube_box(double half_width, int cells) {
       {-half_width, -half_width, -half_width}, {half_width, half_width, half_width}, {cells, cells, cells}};
 }
 
+/// Its faces are walls, for films that go to its edge.
+inline grid::Box walled(grid::Box box) {
+  box.boundary.fill(grid::Boundary::Slip);
+  return box;
+}
+
 /// Half-planes that meet in a line parallel to z through `junction`, at increasing angles [rad] from the x
 /// axis; phase n lies between the angles n and n + 1.
 struct StraightFilms {

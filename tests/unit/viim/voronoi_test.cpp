@@ -13,7 +13,8 @@ using testing::h;
 /// Where three phases of straight films meet after the reconstruction, found from `start`.
 Vec3 border_of(const testing::StraightFilms& films, double half_width, int cells, double epsilon,
                const Vec3& start) {
-  const auto potentials = voronoi_potentials(sampled(testing::cube_box(half_width, cells), films), epsilon);
+  const auto potentials =
+      voronoi_potentials(sampled(testing::walled(testing::cube_box(half_width, cells)), films), epsilon);
   const auto border = potentials.project(start, {0, 1, 2});
   EXPECT_TRUE(border.has_value());
   return border.value_or(start);
@@ -62,7 +63,7 @@ TEST(Voronoi, PullsAJunctionInAStraightFilmAQuarterOfEpsilonTowards120Degrees) {
 TEST(Voronoi, ReproducesABallToFourthOrder) {
   std::vector<double> error;
   for (int cells : {24, 48}) {
-    const auto box = testing::cube_box(12 * h, cells);
+    const auto box = testing::walled(testing::cube_box(12 * h, cells));
     const Vec3 centre{0.137 * h, 0.371 * h, 0.219 * h};
     const double radius = 6.3 * h, epsilon = 1.5 * box.spacing();
     const auto potentials =
@@ -84,7 +85,7 @@ TEST(Voronoi, ReproducesABallToFourthOrder) {
 }
 
 TEST(Voronoi, KnowsPhasesThatHaveNoCore) {
-  const auto box = testing::cube_box(12 * h, 24);
+  const auto box = testing::walled(testing::cube_box(12 * h, 24));
   state::Phases phases;
   phases.target_volume = {0, 1e-12, 0};
   EXPECT_TRUE(
