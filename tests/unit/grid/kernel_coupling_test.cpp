@@ -87,7 +87,7 @@ TEST_P(KernelCouplingOn, SpreadingIntoEvenFieldsKeepsTheTotalForce) {
   VectorField density(grid);
   for (int c = 0; c < 3; ++c) density[c] = Field(grid, even_symmetry);
   const std::vector<Vec3> points = random_points(grid.box(), 200), forces = random_vectors(points.size());
-  KernelCoupling{}.spread(points, forces, density);
+  KernelCoupling{.placement = Placement::Centres}.spread(points, forces, density);
   const double cell_volume = grid.h() * grid.h() * grid.h();
   for (int c = 0; c < 3; ++c) {
     double total = 0, size = 0;
@@ -285,7 +285,7 @@ TEST(KernelCoupling, VelocityVanishesOnNoSlipWallsAndItsNormalPartOnSlipWalls) {
   const Vec3 inside = box.lower + 0.4 * box.size();
   const std::vector<Vec3> points{{inside.x, inside.y, box.lower.z}, {inside.x, box.upper.y, inside.z}};
   std::vector<Vec3> velocities;
-  KernelCoupling{}.sample(u, points, velocities);
+  KernelCoupling{.placement = Placement::Centres}.sample(u, points, velocities);
   // Round-off of the distance to the lower face, 16 cells, in cells.
   EXPECT_NEAR(norm(velocities[0]), 0, 1e-13);
   EXPECT_NEAR(velocities[1].y, 0, 1e-13);
