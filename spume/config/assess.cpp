@@ -111,7 +111,7 @@ Assessment assess(const Case& run_case, const std::vector<BubbleShape>& bubbles)
   a.mean_diameter = mean_diameter(bubbles);
   a.step_limits = step_limits(run_case, a.h, a.mean_diameter);
   a.laplace_number = 2 * sigma * rho * a.mean_diameter / (mu * mu);
-  a.foam = estimate_foam(bubbles, box);
+  a.foam = run_case.foam.lattice ? estimate_full_box(a.n_bubbles, box) : estimate_foam(bubbles, box);
   a.liquid_volume =
       2 * run_case.foam.lamella_half_thickness * a.foam.film_area + lambda * a.foam.border_length;
   a.liquid_fraction = a.liquid_volume / a.foam.gas_volume;

@@ -55,11 +55,48 @@ void check_bubble_inside(const grid::Box& box, const simulation::BubbleShape& bu
   }
 }
 
+void check_lattice(const Case& run_case, const Entries& entries, Problems& problems) {
+  using Structure = simulation::LatticeShape::Structure;
+  const simulation::LatticeShape& lattice = *run_case.foam.lattice;
+  const grid::Box& box = run_case.box;
+  const Place place = entries.place_of("foam.lattice");
+  if (!run_case.foam.bubble.empty() || run_case.foam.cluster)
+    problems.add(place,
+                 "[foam.lattice] fills the box: there is no room for [[foam.bubble]] or [foam.cluster]");
+  if (!box.is_periodic())
+    problems.add(entries.place_of("domain.boundary"),
+                 "[foam.lattice] needs a box that is periodic in all three directions");
+  if (lattice.structure != Structure::Random) {
+    const Vec3 cells = simulation::crystal_cells(lattice, box);
+    for (int axis = 0; axis < 3; ++axis)
+      if (std::abs(cells[axis] - std::round(cells[axis])) > 1e-6)
+        problems.add(
+            entries.place_of("foam.lattice.cells"),
+            fmt::format("the crystal does not fit the box: {:.6g} cubic cells along {}; sides must be "
+                        "whole multiples of a cell",
+                        cells[axis], axis_names[axis]));
+    if (lattice.structure == Structure::Kelvin && lattice.cells < 2)
+      problems.add(
+          entries.place_of("foam.lattice.cells"),
+          "'foam.lattice.cells' must be ≥ 2 for \"kelvin\": in a single cell every bubble would touch "
+          "its own image");
+  }
+  constexpr double fewest_cells = 4;
+  const double edge = simulation::lattice_spacing(lattice, box) / box.spacing();
+  if (edge < fewest_cells)
+    problems.add(place,
+                 fmt::format("{} bubbles are too many for this grid: each fills a cube of {:.2g} cells "
+                             "edge; the least is {}",
+                             simulation::count_bubbles(lattice, box), edge, fewest_cells));
+}
+
 void check_bubbles(const Case& run_case, const Entries& entries, const std::vector<Place>& places,
                    Problems& problems) {
   const auto& bubbles = run_case.foam.bubble;
-  if (bubbles.empty() && !run_case.foam.cluster)
-    problems.add(entries.place_of("foam.bubble"), "no bubbles: give [[foam.bubble]] or [foam.cluster]");
+  if (run_case.foam.lattice) check_lattice(run_case, entries, problems);
+  if (bubbles.empty() && !run_case.foam.cluster && !run_case.foam.lattice)
+    problems.add(entries.place_of("foam.bubble"),
+                 "no bubbles: give [[foam.bubble]], [foam.cluster] or [foam.lattice]");
   for (std::size_t b = 0; b < bubbles.size(); ++b)
     check_bubble_inside(run_case.box, bubbles[b], fmt::format("bubble {}", b + 1), places[b], problems);
 }
@@ -80,8 +117,10 @@ void check_pairs(const std::vector<std::array<int, 2>>& pairs, const std::string
 void cross_check(const Case& run_case, const Entries& entries, const std::vector<Place>& bubble_places,
                  Problems& problems) {
   if (check_box(run_case, entries, problems)) check_bubbles(run_case, entries, bubble_places, problems);
-  const int n_bubbles = static_cast<int>(run_case.foam.bubble.size()) +
-                        (run_case.foam.cluster ? run_case.foam.cluster->count : 0);
+  const int n_bubbles =
+      static_cast<int>(run_case.foam.bubble.size()) +
+      (run_case.foam.cluster ? run_case.foam.cluster->count : 0) +
+      (run_case.foam.lattice ? simulation::count_bubbles(*run_case.foam.lattice, run_case.box) : 0);
   check_pairs(run_case.foam.remove_lamella, "foam.remove_lamella", n_bubbles,
               entries.place_of("foam.remove_lamella"), problems);
   check_pairs(run_case.rupture.protect, "rupture.protect", n_bubbles, entries.place_of("rupture.protect"),

@@ -133,4 +133,14 @@ FoamEstimate estimate_foam(const std::vector<BubbleShape>& bubbles, const grid::
   return estimate;
 }
 
+FoamEstimate estimate_full_box(int n_bubbles, const grid::Box& box) {
+  constexpr double area = 2.65, length = 5.35;
+  FoamEstimate estimate;
+  estimate.gas_volume = box.domain().volume();
+  const double edge = std::cbrt(estimate.gas_volume / n_bubbles);
+  estimate.film_area = area * n_bubbles * edge * edge;
+  estimate.border_length = length * n_bubbles * edge;
+  return estimate;
+}
+
 }  // namespace spume::config

@@ -26,4 +26,8 @@ struct FoamEstimate {
 /// over all directions is 3/2. Grids of more than four million cells are coarsened to that.
 FoamEstimate estimate_foam(const std::vector<simulation::BubbleShape>& bubbles, const grid::Box& box);
 
+/// Of a foam that fills a periodic box: film area 2.65 V^(2/3) and border length 5.35 V^(1/3) a bubble of
+/// volume V, those of Kelvin's foam, from which other dry foams of like bubbles differ by a few per cent.
+FoamEstimate estimate_full_box(int n_bubbles, const grid::Box& box);
+
 }  // namespace spume::config

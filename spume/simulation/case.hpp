@@ -13,6 +13,7 @@
 #include "spume/interface/reconstruct.hpp"
 #include "spume/meshing/mesh_films.hpp"
 #include "spume/rupture/criterion.hpp"
+#include "spume/simulation/lattice.hpp"
 #include "spume/state/materials.hpp"
 #include "spume/transport/transfer.hpp"
 
@@ -41,6 +42,7 @@ struct InitialFoam {
   std::vector<std::array<int, 2>> remove_lamella;  ///< pairs of phases whose films are torn at time 0
   std::vector<BubbleShape> bubble;
   std::optional<ClusterShape> cluster;
+  std::optional<LatticeShape> lattice;
 };
 
 /// Key section [rearrangement].
