@@ -21,6 +21,10 @@ void report(const interface::ReconstructReport& report, std::vector<state::Event
       events.push_back({0, "pocket",
                         fmt::format("gas enclosed between the bubbles is bubble {}; volume {:.4g} m3",
                                     change.other, change.volume)});
+    if (change.kind == Kind::Split)
+      events.push_back({0, "bubble split",
+                        fmt::format("a piece of bubble {} is bubble {}; volume {:.4g} m3", change.phase,
+                                    change.other, change.volume)});
     if (change.kind == Kind::Lost)
       events.push_back({0, "bubble lost",
                         fmt::format("bubble {} is too small for the grid; volume {:.4g} m3", change.phase,

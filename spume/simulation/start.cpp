@@ -8,10 +8,15 @@
 
 #include "spume/base/error.hpp"
 #include "spume/simulation/cluster.hpp"
+#include "spume/simulation/labels.hpp"
 
 namespace spume::simulation {
 
 namespace {
+
+double sphere_radius(double volume) {
+  return std::cbrt(volume * 3 / (4 * std::numbers::pi));
+}
 
 void check_inside(const std::vector<BubbleShape>& bubbles, const grid::Box& box) {
   constexpr int margin_cells = 4;
@@ -67,10 +72,44 @@ Start lattice_cells(const LatticeShape& lattice, const grid::Box& box) {
   return start;
 }
 
+/// The phases of a labelled image.
+Start labelled_phases(const LabelsSource& source, const grid::Box& box) {
+  const io::LabelledImage image = load_labels(source, box);
+  return {label_volumes(image), LabelPotentials(image, box)};
+}
+
+/// Splits the outside of a start by a film; the part above becomes the last phase.
+Start split_outside(Start start, const MembraneShape& membrane) {
+  const auto above = static_cast<mesh::Phase>(start.target_volume.size());
+  start.target_volume.push_back(0.0);
+  const Vec3 normal = normalized(membrane.normal);
+  // Each half of the outside falls by twice the depth in the other half, so that half their difference is the
+  // distance to the film.
+  start.potential = [below = std::move(start.potential), above, normal, point = membrane.point](
+                        mesh::Phase phase, const Vec3& x) {
+    if (phase != 0 && phase != above) return below(phase, x);
+    const double height = dot(normal, x - point);
+    return below(0, x) - 2 * std::max(0.0, phase == 0 ? height : -height);
+  };
+  return start;
+}
+
+std::vector<BubbleShape> spheres_of(const LabelsSource& source, const grid::Box& box) {
+  const io::LabelledImage image = load_labels(source, box);
+  const std::vector<double> volume = label_volumes(image);
+  const std::vector<Vec3> centroid = label_centroids(image);
+  std::vector<BubbleShape> spheres;
+  for (int p = 1; p <= image.n_bubbles(); ++p) {
+    const double radius = sphere_radius(volume[p]);
+    spheres.push_back({centroid[p], {radius, radius, radius}});
+  }
+  return spheres;
+}
+
 std::vector<BubbleShape> spheres_of(const LatticeShape& lattice, const grid::Box& box) {
   std::vector<BubbleShape> spheres;
   for (const auto& bubble : make_lattice(lattice, box)) {
-    const double radius = std::cbrt(bubble.volume * 3 / (4 * std::numbers::pi));
+    const double radius = sphere_radius(bubble.volume);
     spheres.push_back({bubble.center, {radius, radius, radius}});
   }
   return spheres;
@@ -80,11 +119,14 @@ std::vector<BubbleShape> spheres_of(const LatticeShape& lattice, const grid::Box
 
 Start start_of(const Case& run_case) {
   if (run_case.foam.lattice) return lattice_cells(*run_case.foam.lattice, run_case.box);
-  return power_cells(run_case, bubbles_of(run_case));
+  if (run_case.foam.labels) return labelled_phases(*run_case.foam.labels, run_case.box);
+  Start start = power_cells(run_case, bubbles_of(run_case));
+  return run_case.foam.membrane ? split_outside(std::move(start), *run_case.foam.membrane) : start;
 }
 
 std::vector<BubbleShape> bubbles_of(const Case& run_case) {
   if (run_case.foam.lattice) return spheres_of(*run_case.foam.lattice, run_case.box);
+  if (run_case.foam.labels) return spheres_of(*run_case.foam.labels, run_case.box);
   std::vector<BubbleShape> bubbles = run_case.foam.bubble;
   if (run_case.foam.cluster) {
     const auto cluster = make_cluster(*run_case.foam.cluster, run_case.box);
@@ -92,7 +134,8 @@ std::vector<BubbleShape> bubbles_of(const Case& run_case) {
   }
   if (bubbles.empty())
     throw InputError(
-        "the case has no bubble: give [[foam.bubble]] entries or a section [foam.cluster] or [foam.lattice]");
+        "the case has no bubble: give [[foam.bubble]] entries or a section [foam.cluster], [foam.lattice] or "
+        "[foam.labels]");
   check_inside(bubbles, run_case.box);
   return bubbles;
 }
