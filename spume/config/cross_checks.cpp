@@ -117,6 +117,12 @@ void check_membrane(const Case& run_case, const Entries& entries, Problems& prob
                                "must be periodic there",
                                axis_names[axis]));
   }
+  for (int axis = 0; axis < 3; ++axis)
+    if (axis != across && run_case.materials.gravity[axis] != 0)
+      problems.add(entries.place_of("gravity"),
+                   fmt::format("'gravity' along {} would drive liquid around the membrane for ever: with "
+                               "[foam.membrane] it must be along {}",
+                               axis_names[axis], axis_names[across]));
   const double low = box.lower[across] + margin_cells * box.spacing();
   const double high = box.upper[across] - margin_cells * box.spacing();
   if (membrane.point[across] < low || membrane.point[across] > high)
