@@ -2,7 +2,7 @@
 
 #include "spume/base/error.hpp"
 #include "spume/config/read_case.hpp"
-#include "spume/simulation/initial_foam.hpp"
+#include "spume/simulation/start.hpp"
 
 namespace spume::app {
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 
 namespace spume {
 
@@ -20,6 +22,11 @@ class Random {
   double uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
   /// Uniform in [a, b).
   double uniform(double a, double b) { return a + (b - a) * uniform(); }
+  /// Of the normal distribution of mean 0 and variance 1 (Box–Muller).
+  double normal() {
+    const double u = 1 - uniform(), v = uniform();
+    return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
+  }
 
  private:
   std::uint64_t state_;

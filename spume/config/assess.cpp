@@ -8,6 +8,7 @@
 
 #include "spume/config/text.hpp"
 #include "spume/simulation/cluster.hpp"
+#include "spume/simulation/labels.hpp"
 
 namespace spume::config {
 
@@ -38,6 +39,19 @@ std::vector<flow::StepLimit> step_limits(const Case& run_case, double h, double 
   return {flow::capillary_limit(h, run_case.materials, run_case.rearrangement.capillary_factor),
           {run_case.rearrangement.cfl * h / speed,
            fmt::format("advection, where the gas moves at {:.2g} m/s as after a rupture", speed)}};
+}
+
+FoamEstimate estimate(const Case& run_case, const std::vector<BubbleShape>& bubbles) {
+  const grid::Box& box = run_case.box;
+  const auto& foam = run_case.foam;
+  if (foam.lattice) return estimate_full_box(static_cast<int>(bubbles.size()), box);
+  if (foam.labels) return estimate_labels(simulation::load_labels(*foam.labels, box), box);
+  FoamEstimate of_bubbles = estimate_foam(bubbles, box);
+  if (foam.membrane) {
+    const Vec3 n = normalized(foam.membrane->normal);
+    of_bubbles.film_area += box.domain().volume() / std::abs(dot(n, box.size()));
+  }
+  return of_bubbles;
 }
 
 /// Fitted to runs of the quick-start case on 48³ to 96³ cells on one core of an AMD EPYC (Zen 5),
@@ -114,7 +128,7 @@ Assessment assess(const Case& run_case, const std::vector<BubbleShape>& bubbles)
   a.mean_diameter = mean_diameter(bubbles);
   a.step_limits = step_limits(run_case, a.h, a.mean_diameter);
   a.laplace_number = 2 * sigma * rho * a.mean_diameter / (mu * mu);
-  a.foam = estimate_foam(bubbles, box);
+  a.foam = estimate(run_case, bubbles);
   a.liquid_volume =
       2 * run_case.foam.lamella_half_thickness * a.foam.film_area + lambda * a.foam.border_length;
   a.liquid_fraction = a.liquid_volume / a.foam.gas_volume;

@@ -55,11 +55,107 @@ void check_bubble_inside(const grid::Box& box, const simulation::BubbleShape& bu
   }
 }
 
+void check_lattice(const Case& run_case, const Entries& entries, Problems& problems) {
+  using Structure = simulation::LatticeShape::Structure;
+  const simulation::LatticeShape& lattice = *run_case.foam.lattice;
+  const grid::Box& box = run_case.box;
+  const Place place = entries.place_of("foam.lattice");
+  if (!box.is_periodic())
+    problems.add(entries.place_of("domain.boundary"),
+                 "[foam.lattice] needs a box that is periodic in all three directions");
+  if (lattice.structure != Structure::Random) {
+    const Vec3 cells = simulation::crystal_cells(lattice, box);
+    for (int axis = 0; axis < 3; ++axis)
+      if (std::abs(cells[axis] - std::round(cells[axis])) > 1e-6)
+        problems.add(
+            entries.place_of("foam.lattice.cells"),
+            fmt::format("the crystal does not fit the box: {:.6g} cubic cells along {}; sides must be "
+                        "whole multiples of a cell",
+                        cells[axis], axis_names[axis]));
+    if (lattice.structure == Structure::Kelvin && lattice.cells < 2)
+      problems.add(
+          entries.place_of("foam.lattice.cells"),
+          "'foam.lattice.cells' must be ≥ 2 for \"kelvin\": in a single cell every bubble would touch "
+          "its own image");
+  }
+  constexpr double fewest_cells = 4;
+  const double edge = simulation::lattice_spacing(lattice, box) / box.spacing();
+  if (edge < fewest_cells)
+    problems.add(place,
+                 fmt::format("{} bubbles are too many for this grid: each fills a cube of {:.2g} cells "
+                             "edge; the least is {}",
+                             simulation::count_bubbles(lattice, box), edge, fewest_cells));
+}
+
+void check_membrane(const Case& run_case, const Entries& entries, Problems& problems) {
+  const simulation::MembraneShape& membrane = *run_case.foam.membrane;
+  const grid::Box& box = run_case.box;
+  const Vec3& n = membrane.normal;
+  int across = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (std::abs(n[axis]) > std::abs(n[across])) across = axis;
+  for (int axis = 0; axis < 3; ++axis)
+    if (n[across] == 0 || (axis != across && n[axis] != 0)) {
+      problems.add(
+          entries.place_of("foam.membrane.normal"),
+          fmt::format("'foam.membrane.normal' must be along x, y or z, not [{}, {}, {}]: other films "
+                      "would not close on themselves",
+                      n.x, n.y, n.z));
+      return;
+    }
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool periodic = box.boundary[axis] == grid::Boundary::Periodic;
+    if (axis == across && periodic)
+      problems.add(
+          entries.place_of("domain.boundary"),
+          fmt::format("[foam.membrane] lies across {}: there the box needs \"wall\" or \"slip\", or the "
+                      "gas above would be that below",
+                      axis_names[axis]));
+    if (axis != across && !periodic)
+      problems.add(entries.place_of("domain.boundary"),
+                   fmt::format("[foam.membrane] would meet a wall across {}, which is not supported: the box "
+                               "must be periodic there",
+                               axis_names[axis]));
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    if (axis != across && run_case.materials.gravity[axis] != 0)
+      problems.add(entries.place_of("gravity"),
+                   fmt::format("'gravity' along {} would drive liquid around the membrane for ever: with "
+                               "[foam.membrane] it must be along {}",
+                               axis_names[axis], axis_names[across]));
+  const double low = box.lower[across] + margin_cells * box.spacing();
+  const double high = box.upper[across] - margin_cells * box.spacing();
+  if (membrane.point[across] < low || membrane.point[across] > high)
+    problems.add(entries.place_of("foam.membrane.point"),
+                 fmt::format("[foam.membrane] lies at {} = {:.6g} m; it must stay {} cells inside the box, "
+                             "between {:.6g} and {:.6g} m",
+                             axis_names[across], membrane.point[across], margin_cells, low, high));
+}
+
+/// A foam starts in one way; a membrane goes with bubbles of a list or cluster.
+void check_one_start(const Case& run_case, const Entries& entries, Problems& problems) {
+  const auto& foam = run_case.foam;
+  const bool has_bubbles = !foam.bubble.empty() || foam.cluster;
+  if (!has_bubbles && !foam.lattice && !foam.labels)
+    problems.add(entries.place_of("foam.bubble"),
+                 "no bubbles: give [[foam.bubble]], [foam.cluster], [foam.lattice] or [foam.labels]");
+  const bool others = has_bubbles || foam.membrane;
+  if (foam.lattice && (others || foam.labels))
+    problems.add(entries.place_of("foam.lattice"),
+                 "[foam.lattice] fills the box: no other bubbles, labels or membrane can be given");
+  else if (foam.labels && others)
+    problems.add(entries.place_of("foam.labels"),
+                 "[foam.labels] gives the whole foam: no other bubbles or membrane can be given");
+  if (foam.labels && foam.labels->file.empty())
+    problems.add(entries.place_of("foam.labels"), "[foam.labels] has no 'file' (the labelled image)");
+}
+
 void check_bubbles(const Case& run_case, const Entries& entries, const std::vector<Place>& places,
                    Problems& problems) {
   const auto& bubbles = run_case.foam.bubble;
-  if (bubbles.empty() && !run_case.foam.cluster)
-    problems.add(entries.place_of("foam.bubble"), "no bubbles: give [[foam.bubble]] or [foam.cluster]");
+  if (run_case.foam.lattice) check_lattice(run_case, entries, problems);
+  if (run_case.foam.membrane) check_membrane(run_case, entries, problems);
+  check_one_start(run_case, entries, problems);
   for (std::size_t b = 0; b < bubbles.size(); ++b)
     check_bubble_inside(run_case.box, bubbles[b], fmt::format("bubble {}", b + 1), places[b], problems);
 }
@@ -80,8 +176,11 @@ void check_pairs(const std::vector<std::array<int, 2>>& pairs, const std::string
 void cross_check(const Case& run_case, const Entries& entries, const std::vector<Place>& bubble_places,
                  Problems& problems) {
   if (check_box(run_case, entries, problems)) check_bubbles(run_case, entries, bubble_places, problems);
-  const int n_bubbles = static_cast<int>(run_case.foam.bubble.size()) +
-                        (run_case.foam.cluster ? run_case.foam.cluster->count : 0);
+  if (run_case.foam.labels) return;  // only the image tells how many phases there are
+  const auto& foam = run_case.foam;
+  const int n_bubbles = static_cast<int>(foam.bubble.size()) + (foam.cluster ? foam.cluster->count : 0) +
+                        (foam.lattice ? simulation::count_bubbles(*foam.lattice, run_case.box) : 0) +
+                        (foam.membrane ? 1 : 0);
   check_pairs(run_case.foam.remove_lamella, "foam.remove_lamella", n_bubbles,
               entries.place_of("foam.remove_lamella"), problems);
   check_pairs(run_case.rupture.protect, "rupture.protect", n_bubbles, entries.place_of("rupture.protect"),

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "spume/simulation/cluster.hpp"
+#include "spume/simulation/labels.hpp"
 
 namespace spume::config {
 
@@ -130,6 +131,29 @@ FoamEstimate estimate_foam(const std::vector<BubbleShape>& bubbles, const grid::
   FoamEstimate estimate;
   count_films_and_borders(mark_bubbles(bubbles, coarse), coarse.cells, coarse.spacing(), estimate);
   estimate.pockets = connected_pockets(simulation::enclosed_pockets(bubbles, coarse), coarse);
+  return estimate;
+}
+
+FoamEstimate estimate_labels(const io::LabelledImage& image, const grid::Box& box) {
+  const grid::Box coarse = coarsened(box);
+  const double h = coarse.spacing();
+  std::vector<int> label;
+  for (int k = 0; k < coarse.cells.k; ++k)
+    for (int j = 0; j < coarse.cells.j; ++j)
+      for (int i = 0; i < coarse.cells.i; ++i)
+        label.push_back(simulation::label_at(image, coarse.lower + h * Vec3{i + 0.5, j + 0.5, k + 0.5}));
+  FoamEstimate estimate;
+  count_films_and_borders(label, coarse.cells, h, estimate);
+  return estimate;
+}
+
+FoamEstimate estimate_full_box(int n_bubbles, const grid::Box& box) {
+  constexpr double area = 2.65, length = 5.35;
+  FoamEstimate estimate;
+  estimate.gas_volume = box.domain().volume();
+  const double edge = std::cbrt(estimate.gas_volume / n_bubbles);
+  estimate.film_area = area * n_bubbles * edge * edge;
+  estimate.border_length = length * n_bubbles * edge;
   return estimate;
 }
 

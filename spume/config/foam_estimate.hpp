@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "spume/grid/box.hpp"
+#include "spume/io/labelled_image.hpp"
 #include "spume/simulation/case.hpp"
 
 namespace spume::config {
@@ -25,5 +26,12 @@ struct FoamEstimate {
 /// average (3/2) A/h² faces between cells and a line (3/2) L/h edges, since the mean of |n_x| + |n_y| + |n_z|
 /// over all directions is 3/2. Grids of more than four million cells are coarsened to that.
 FoamEstimate estimate_foam(const std::vector<simulation::BubbleShape>& bubbles, const grid::Box& box);
+
+/// The same from a labelled image that has its place in the box. Pockets are not looked for.
+FoamEstimate estimate_labels(const io::LabelledImage& image, const grid::Box& box);
+
+/// Of a foam that fills a periodic box: film area 2.65 V^(2/3) and border length 5.35 V^(1/3) a bubble of
+/// volume V, those of Kelvin's foam, from which other dry foams of like bubbles differ by a few per cent.
+FoamEstimate estimate_full_box(int n_bubbles, const grid::Box& box);
 
 }  // namespace spume::config

@@ -73,6 +73,17 @@ simulation::ClusterShape& cluster(Case& c) {
   return c.foam.cluster ? *c.foam.cluster : c.foam.cluster.emplace();
 }
 
+simulation::LatticeShape& lattice(Case& c) {
+  return c.foam.lattice ? *c.foam.lattice : c.foam.lattice.emplace();
+}
+
+simulation::LabelsSource& labels(Case& c) {
+  return c.foam.labels ? *c.foam.labels : c.foam.labels.emplace();
+}
+simulation::MembraneShape& membrane(Case& c) {
+  return c.foam.membrane ? *c.foam.membrane : c.foam.membrane.emplace();
+}
+
 using Keys = std::vector<Key<Case>>;
 
 Keys box_keys() {
@@ -132,6 +143,42 @@ Keys foam_keys() {
       {"foam.cluster.center",
        OptionalVector<Case>{[](Case& c) -> std::optional<Vec3>& { return cluster(c).center; }}, "m", "",
        "its centre; the middle of the box when not given"},
+  };
+}
+
+Keys lattice_keys() {
+  using simulation::LatticeShape;
+  return {
+      {"foam.lattice.structure",
+       choice<Case, LatticeShape::Structure>(
+           {"kelvin", "weaire-phelan", "random"},
+           [](Case& c) -> LatticeShape::Structure& { return lattice(c).structure; }),
+       "", "", "kelvin: 2 bubbles a cubic cell; weaire-phelan: 8; random: from seeded points"},
+      {"foam.lattice.cells", WholeNumber<Case>{[](Case& c) -> int& { return lattice(c).cells; }, 1}, "", "",
+       "of a crystal: cubic cells along the shortest side of the box"},
+      {"foam.lattice.count", WholeNumber<Case>{[](Case& c) -> int& { return lattice(c).count; }, 8}, "", "",
+       "of a random foam: number of bubbles"},
+      {"foam.lattice.spread",
+       Number<Case>{[](Case& c) -> double& { return lattice(c).spread; }, Range{.lowest = 0, .highest = 0.4}},
+       "", "", "of a random foam: standard deviation of the diameters over their mean"},
+      {"foam.lattice.seed", Seed<Case>{[](Case& c) -> std::uint64_t& { return lattice(c).seed; }}, "", "",
+       "of a random foam: the same seed gives the same bubbles"},
+  };
+}
+
+Keys labels_and_membrane_keys() {
+  using simulation::LabelsSource;
+  return {
+      {"foam.labels.file", Text<Case>{[](Case& c) -> std::string& { return labels(c).file; }}, "", "",
+       "vti, mha, mhd, nrrd or nhdr; a relative name starts at the folder of the case file"},
+      {"foam.labels.placement",
+       choice<Case, LabelsSource::Placement>(
+           {"box", "file"}, [](Case& c) -> LabelsSource::Placement& { return labels(c).placement; }),
+       "", "", "box: stretched over the box; file: origin and spacing of the file are metres"},
+      {"foam.membrane.point", Vector<Case>{[](Case& c) -> Vec3& { return membrane(c).point; }}, "m", "",
+       "a point of the film"},
+      {"foam.membrane.normal", Vector<Case>{[](Case& c) -> Vec3& { return membrane(c).normal; }}, "", "",
+       "direction across the film, along x, y or z; the phase above is the last one"},
   };
 }
 
@@ -245,6 +292,12 @@ const std::vector<Section>& sections() {
       {"foam", "the foam at time 0; bubbles are numbered 1, 2, … in order, 0 is the outside"},
       {"foam.cluster", "bubbles placed at random that touch each other",
        [](const Case& c) { return c.foam.cluster.has_value(); }, [](Case& c) { cluster(c); }},
+      {"foam.lattice", "bubbles that fill a periodic box and leave no outside",
+       [](const Case& c) { return c.foam.lattice.has_value(); }, [](Case& c) { lattice(c); }},
+      {"foam.labels", "bubbles from a labelled voxel image; label 0 is the outside",
+       [](const Case& c) { return c.foam.labels.has_value(); }, [](Case& c) { labels(c); }},
+      {"foam.membrane", "a film across the box, through periodic sides; bubbles may sit on it",
+       [](const Case& c) { return c.foam.membrane.has_value(); }, [](Case& c) { membrane(c); }},
       {"rearrangement", "bubbles and films move until they are near equilibrium"},
       {"drainage", "liquid drains from the films"},
       {"rupture", "the thinnest film breaks"},
@@ -258,8 +311,9 @@ const std::vector<Section>& sections() {
 const std::vector<Key<Case>>& case_keys() {
   static const Keys all = [] {
     Keys keys;
-    for (const Keys& part : {box_keys(), material_keys(), foam_keys(), rearrangement_keys(), drainage_keys(),
-                             rupture_keys(), cycle_keys(), output_keys()})
+    for (const Keys& part :
+         {box_keys(), material_keys(), foam_keys(), lattice_keys(), labels_and_membrane_keys(),
+          rearrangement_keys(), drainage_keys(), rupture_keys(), cycle_keys(), output_keys()})
       keys.insert(keys.end(), part.begin(), part.end());
     return keys;
   }();
@@ -285,9 +339,6 @@ const std::vector<Key<BubbleEntry>>& bubble_keys() {
 
 const std::vector<LaterKey>& later_keys() {
   static const std::vector<LaterKey> all{
-      {"foam.membrane", "a film across the box"},
-      {"foam.lattice", "bubbles that fill a periodic box"},
-      {"foam.labels", "bubbles from a labelled image"},
       {"drainage.scheme", "the choice of the drainage scheme"},
   };
   return all;

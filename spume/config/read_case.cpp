@@ -133,6 +133,17 @@ void read_bubbles(const Entry& entry, Case& run_case, std::vector<Place>& places
   }
 }
 
+/// A relative name of an image starts at the folder of the case file, or, on the command line, where the
+/// program runs; from now on it is absolute, so that the resolved case can stand in any folder.
+void resolve_labels_file(const Entries& entries, const std::string& source, Case& run_case) {
+  const Entry* entry = entries.find("foam.labels.file");
+  if (entry == nullptr) return;
+  const std::filesystem::path file = run_case.foam.labels->file;
+  const auto folder =
+      entry->place.line == 0 ? std::filesystem::path() : std::filesystem::path(source).parent_path();
+  run_case.foam.labels->file = std::filesystem::absolute(folder / file).lexically_normal().string();
+}
+
 void check_required(const Entries& entries, Problems& problems) {
   for (const auto& key : case_keys())
     if (key.required && entries.find(key.name) == nullptr)
@@ -172,6 +183,7 @@ Case parse_case(const std::string& text, const std::string& source, const std::v
       problems.add(entry.key_place, not_a_key(name, *entry.value));
     }
   }
+  if (run_case.foam.labels) resolve_labels_file(entries, source, run_case);
   check_required(entries, problems);
   // What contradicts itself can only be told from values that are right.
   if (problems.none()) cross_check(run_case, entries, bubble_places, problems);

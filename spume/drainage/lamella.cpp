@@ -27,7 +27,7 @@ void fill_domain(const state::FilmNetwork& network, const Vec3& gravity,
     lamella.curvature_squared.push_back(network.curvature_squared[d]);
     lamella.descent.push_back(dot(gravity, position.back() - position.front()));
   }
-  lamella.surface = fem::assemble_surface_laplacian(position, triangles);
+  lamella.surface = fem::assemble_surface_laplacian(position, triangles, network.mesh.domain);
 }
 
 /// Neighbours of the neighbours of a node, itself included, increasing.

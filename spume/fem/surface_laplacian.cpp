@@ -23,9 +23,10 @@ struct Entry {
 }
 
 /// Entries of one triangle off the diagonal; adds its area to the masses.
-void add_triangle(std::span<const Vec3> position, const std::array<int, 3>& corner, std::vector<double>& mass,
-                  std::vector<Entry>& entries) {
-  const Vec3 &a = position[corner[0]], &b = position[corner[1]], &c = position[corner[2]];
+void add_triangle(std::span<const Vec3> position, const std::array<int, 3>& corner, const Domain& domain,
+                  std::vector<double>& mass, std::vector<Entry>& entries) {
+  const Vec3 a = position[corner[0]], b = domain.near(position[corner[1]], a),
+             c = domain.near(position[corner[2]], a);
   const double area = triangle_area(a, b, c);
   const TriangleMatrix k = triangle_stiffness(a, b, c);
   for (int i = 0; i < 3; ++i) {
@@ -41,13 +42,14 @@ void add_triangle(std::span<const Vec3> position, const std::array<int, 3>& corn
 }  // namespace
 
 SurfaceLaplacian assemble_surface_laplacian(std::span<const Vec3> position,
-                                            std::span<const std::array<int, 3>> triangle) {
+                                            std::span<const std::array<int, 3>> triangle,
+                                            const Domain& domain) {
   const int n = static_cast<int>(position.size());
   SurfaceLaplacian surface;
   surface.mass.assign(n, 0.0);
   std::vector<Entry> entries;
   entries.reserve(6 * triangle.size());
-  for (const auto& corner : triangle) add_triangle(position, corner, surface.mass, entries);
+  for (const auto& corner : triangle) add_triangle(position, corner, domain, surface.mass, entries);
   for (int i = 0; i < n; ++i)
     if (!(surface.mass[i] > 0)) fail_at("a film vertex has no area", position[i]);
 

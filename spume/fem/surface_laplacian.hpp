@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "spume/base/domain.hpp"
 #include "spume/base/vec3.hpp"
 
 namespace spume::fem {
@@ -22,8 +23,11 @@ struct SurfaceLaplacian {
 };
 
 /// Assembles m and K for vertices at `position` [m] and triangles that index into them. K is exactly
-/// symmetric. Throws NumericalError, with the place, where a triangle has no area or a vertex no triangle.
+/// symmetric. In a periodic domain a triangle has the images of its corners that are nearest to each other,
+/// so that the surface may go all the way around. Throws NumericalError, with the place, where a triangle has
+/// no area or a vertex no triangle.
 SurfaceLaplacian assemble_surface_laplacian(std::span<const Vec3> position,
-                                            std::span<const std::array<int, 3>> triangle);
+                                            std::span<const std::array<int, 3>> triangle,
+                                            const Domain& domain = {});
 
 }  // namespace spume::fem

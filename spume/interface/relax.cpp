@@ -8,6 +8,7 @@
 
 #include "spume/base/error.hpp"
 #include "spume/mesh/measure.hpp"
+#include "spume/mesh/phase_frames.hpp"
 #include "spume/mesh/volume_constraint.hpp"
 
 namespace spume::interface {
@@ -86,9 +87,11 @@ RelaxStepReport relax_step(mesh::FilmMesh& films, const state::Phases& phases, d
   const mesh::Topology topology = mesh::build_topology(films);
   const auto pressure = mesh::film_pressures(films, topology, mesh::area_descent(films), phases.count());
   const auto volume = mesh::phase_volumes(films, phases.count());
-  double work = 0;
-  for (int p = 1; p < phases.count(); ++p) work += pressure[p] * volume[p];
-  report.virial_error = std::abs(2.0 / 3.0 * report.area_before / work - 1);
+  if (mesh::stands_free(films, phases.count())) {
+    double work = 0;
+    for (int p = 1; p < phases.count(); ++p) work += pressure[p] * volume[p];
+    report.virial_error = std::abs(2.0 / 3.0 * report.area_before / work - 1);
+  }
 
   const std::vector<Vec3> before = films.position;
   move_vertices(implicit_step(films, tau), mesh::weighted_volume_gradient(films, pressure), films);

@@ -7,8 +7,9 @@ namespace spume::interface {
 
 struct RelaxStepReport {
   double area_before, area_after;  ///< [m²]
-  double virial_error;             ///< |(2/3) A / Σ P_i V_i − 1| with P in units of the film tension
-  double largest_displacement;     ///< [m]
+  double virial_error;          ///< |(2/3) A / Σ P_i V_i − 1| with P in units of the film tension; 0 where
+                                ///< the identity says nothing, see mesh::stands_free()
+  double largest_displacement;  ///< [m]
 };
 
 /// One step of implicit, volume-constrained curvature flow of the film mesh, without gas:

@@ -2,9 +2,38 @@
 
 #include <Eigen/Dense>
 
+#include "spume/base/union_find.hpp"
 #include "spume/mesh/phase_frames.hpp"
 
 namespace spume::mesh {
+
+namespace {
+
+/// Gives every group of phases that films connect to each other, but not to the outside, the mean pressure
+/// zero by volume.
+void centre_groups_without_outside(const FilmMesh& mesh, std::vector<double>& pressure) {
+  const int n_phases = static_cast<int>(pressure.size());
+  UnionFind groups(n_phases);
+  for (const auto& t : mesh.triangle) groups.join(t.phase_a, t.phase_b);
+  std::vector<char> has_films(n_phases, 0);
+  for (const auto& t : mesh.triangle) has_films[t.phase_a] = has_films[t.phase_b] = 1;
+  const auto counts = [&](Phase p) { return has_films[p] && groups.find(p) != 0; };
+  bool any = false;
+  for (Phase p = 1; p < n_phases; ++p) any = any || counts(p);
+  if (!any) return;
+
+  const std::vector<double> volume = phase_volumes(mesh, n_phases);
+  std::vector<double> work(n_phases, 0.0), size(n_phases, 0.0);
+  for (Phase p = 1; p < n_phases; ++p) {
+    if (!counts(p)) continue;
+    work[groups.find(p)] += volume[p] * pressure[p];
+    size[groups.find(p)] += volume[p];
+  }
+  for (Phase p = 1; p < n_phases; ++p)
+    if (counts(p)) pressure[p] -= work[groups.find(p)] / size[groups.find(p)];
+}
+
+}  // namespace
 
 double film_area(const FilmMesh& mesh) {
   double area = 0;
@@ -133,6 +162,7 @@ std::vector<double> film_pressures(const FilmMesh& mesh, const Topology& topolog
         laplacian.bottomRightCorner(n, n).completeOrthogonalDecomposition().solve(right.tail(n));
     for (int p = 1; p < n_phases; ++p) pressure[p] = solution(p - 1);
   }
+  centre_groups_without_outside(mesh, pressure);
   return pressure;
 }
 

@@ -37,8 +37,8 @@ std::vector<Vec3> weighted_volume_gradient(const FilmMesh& mesh, std::span<const
 /// ∂V_i/∂x_v:
 ///   Σ_v N_i·Σ_j P_j ∂V_j/∂x_v = −Σ_v N_i·F_v   for every bubble i, over film vertices,
 /// N_i the unit normal out of bubble i. A weighted graph Laplacian of film areas. In equilibrium F + Σ P
-/// ∂V/∂x = 0. A group of phases that no film connects to the outside gets pressures of mean zero; a bubble
-/// without a vertex inside a film gets pressure 0.
+/// ∂V/∂x = 0. A group of phases that no film connects to the outside gets pressures whose mean, weighted by
+/// volume, is zero; a bubble without a vertex inside a film gets pressure 0.
 std::vector<double> film_pressures(const FilmMesh& mesh, const Topology& topology,
                                    std::span<const Vec3> force, int n_phases);
 

@@ -107,4 +107,11 @@ double PhaseFrames::volume(Phase p, double cones) const {
   return cones - domain_.volume() * std::floor(cones / domain_.volume());
 }
 
+bool stands_free(const FilmMesh& mesh, int n_phases) {
+  const PhaseFrames frames(mesh, n_phases);
+  const bool meets_outside =
+      std::any_of(mesh.triangle.begin(), mesh.triangle.end(), [](const auto& t) { return t.phase_a == 0; });
+  return meets_outside && frames.bounded(0, 0) && frames.bounded(0, 1) && frames.bounded(0, 2);
+}
+
 }  // namespace spume::mesh

@@ -42,4 +42,9 @@ class PhaseFrames {
   std::vector<Frame> frame_;
 };
 
+/// Whether the foam is a body with the outside around it: it has films to the outside, and these leave a part
+/// of every periodic direction free. Only then is there an outer pressure, and the virial identity holds:
+/// Σ_i (p_i − p_0) V_i = (2/3) 2σA.
+bool stands_free(const FilmMesh& mesh, int n_phases);
+
 }  // namespace spume::mesh

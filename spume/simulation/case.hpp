@@ -13,6 +13,7 @@
 #include "spume/interface/reconstruct.hpp"
 #include "spume/meshing/mesh_films.hpp"
 #include "spume/rupture/criterion.hpp"
+#include "spume/simulation/lattice.hpp"
 #include "spume/state/materials.hpp"
 #include "spume/transport/transfer.hpp"
 
@@ -33,6 +34,23 @@ struct ClusterShape {
   std::optional<Vec3> center;  ///< [m]; the middle of the box when not given
 };
 
+/// A foam from a labelled voxel image. Key section [foam.labels].
+struct LabelsSource {
+  std::string file;
+  enum class Placement {
+    Box,   ///< the image is stretched over the box; what its file says of size and place is not used
+    File,  ///< origin and spacing of the file are metres
+  } placement = Placement::Box;
+};
+
+/// A flat film across the box, which splits the outside: below it is phase 0, above it, where the normal
+/// points, the last phase, N + 1. Bubbles may sit on it. Its edges close on themselves through periodic
+/// faces.
+struct MembraneShape {
+  Vec3 point;            ///< on the film [m]
+  Vec3 normal{0, 0, 1};  ///< along an axis; of any length
+};
+
 /// Key section [foam].
 struct InitialFoam {
   double lamella_half_thickness = 5e-6;            ///< η everywhere at the start [m]
@@ -41,6 +59,9 @@ struct InitialFoam {
   std::vector<std::array<int, 2>> remove_lamella;  ///< pairs of phases whose films are torn at time 0
   std::vector<BubbleShape> bubble;
   std::optional<ClusterShape> cluster;
+  std::optional<LatticeShape> lattice;
+  std::optional<LabelsSource> labels;
+  std::optional<MembraneShape> membrane;
 };
 
 /// Key section [rearrangement].

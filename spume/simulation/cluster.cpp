@@ -10,18 +10,13 @@ namespace spume::simulation {
 
 namespace {
 
-double standard_normal(Random& random) {  // Box–Muller
-  const double u = 1 - random.uniform(), v = random.uniform();
-  return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
-}
-
 std::vector<BubbleShape> scattered(const ClusterShape& cluster) {
   Random random(cluster.seed);
   const double radius = 0.5 * cluster.mean_diameter;
   const double room = 1.6 * radius * std::cbrt(cluster.count);
   std::vector<BubbleShape> bubbles(cluster.count);
   for (auto& bubble : bubbles) {
-    const double r = radius * (1 + cluster.spread * std::clamp(standard_normal(random), -2.0, 2.0));
+    const double r = radius * (1 + cluster.spread * std::clamp(random.normal(), -2.0, 2.0));
     bubble.semi_axes = {r, r, r};
     for (int d = 0; d < 3; ++d) bubble.center[d] = random.uniform(-room, room);
   }

@@ -9,7 +9,7 @@ namespace spume::simulation {
 
 struct EquilibrateReport {
   int n_steps = 0, n_reconstructions = 0;
-  double virial_error = 1;  ///< |(2/3) 2σA / Σ p_i V_i − 1| at the end
+  double virial_error = 1;  ///< |(2/3) 2σA / Σ p_i V_i − 1| at the end; 0 where it says nothing
   double area_change = 1;   ///< relative, of the last step
   double area_to_fall = 1;  ///< relative, estimated from how the steps shrink
   bool converged = false;
