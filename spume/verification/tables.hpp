@@ -23,5 +23,7 @@ StudyRun robustness;
 StudyRun fig12_area;
 StudyRun fig13_oscillation;
 StudyRun taylor_green;
+StudyRun crystals;
+StudyRun interface_methods;
 
 }  // namespace spume::verification
