@@ -84,7 +84,7 @@ void settle(mesh::FilmMesh& films, const state::Phases& phases, const Reconstruc
   tidying.smoothing_sweeps = 0;
   const auto where_it_is = [](const Vec3& x, const mesh::PhaseSet&) { return std::optional(x); };
   mesh::remesh(
-      films, [h](const Vec3&) { return h; }, where_it_is, tidying);
+      films, [edge_length = parameters.edge * h](const Vec3&) { return edge_length; }, where_it_is, tidying);
   mesh::restore_volumes(films, measured.target_volume, 3, largest_volume_step * h);
 }
 
@@ -122,7 +122,8 @@ Reconstruction extract_films(const grid::Grid& grid, std::shared_ptr<PhasePotent
 
   mesh::FilmMesh& mesh = found.films;
   report.remesh = mesh::remesh(
-      mesh, [h](const Vec3&) { return h; }, projection_onto(potentials), parameters.remesh);
+      mesh, [edge_length = parameters.edge * h](const Vec3&) { return edge_length; },
+      projection_onto(potentials), parameters.remesh);
   report.times.lap("remesh");
   if (parameters.conserve_volumes)
     report.largest_volume_displacement =

@@ -21,6 +21,7 @@ struct ReconstructParameters {
   double relaxation = 0.4;  ///< time over which a new mesh relaxes [h²]; undone in advance for smooth shapes
   double smallest_bubble_cells = 2.5;  ///< pieces below (this × h)³ are not kept as bubbles of their own
   bool conserve_volumes = true;
+  double edge = 1;  ///< target length of the edges of the new mesh [h]
   mesh::RemeshParameters remesh{.merge_below = 0.3};
 };
 

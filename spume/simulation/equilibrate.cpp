@@ -51,22 +51,6 @@ bool has_poor_triangles(const mesh::FilmMesh& films, const mesh::Topology& topol
   return quality.shortest_edge < 0.2 * h || quality.smallest_angle_degrees < 15;
 }
 
-/// The films of a foam and what they carry, to go back to.
-class Mark {
- public:
-  explicit Mark(const state::Foam& foam) : films_(foam.films), phases_(foam.phases), liquid_(foam.liquid) {}
-  void restore(state::Foam& foam) const {
-    foam.films = films_;
-    foam.phases = phases_;
-    foam.liquid = liquid_;
-  }
-
- private:
-  mesh::FilmMesh films_;
-  state::Phases phases_;
-  state::FilmLiquid liquid_;
-};
-
 /// What a reconstruction without a topological change has added to the area, for the steps that follow to
 /// take off again.
 class Regain {
@@ -88,9 +72,14 @@ class Regain {
 EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, state::Foam& foam,
                               std::vector<state::Event>& events, const OnRelaxStep& on_step) {
   constexpr int most_steps = 2000;
-  constexpr double largest_motion_cells = 0.5, motion_at_rest_cells = 0.1;
+  constexpr double largest_motion_cells = 0.5;
   constexpr double rest = 1e-5, largest_virial_error = 1e-4;
   const double h = grid.h();
+  // Flat triangles have too much area for their volumes, by the square of their edges: the films come to rest
+  // on the ordinary mesh, and once more on a finer one.
+  Case fine_case = run_case;
+  fine_case.reconstruct.edge = 0.7;
+  bool is_fine = false;
   Pace pace(mean_bubble_radius(foam.phases));
   Remainder remainder;
   Regain regain;
@@ -119,18 +108,14 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
     const double motion = largest_distance(foam.films.position, reference) / h;
     const bool at_rest = report.area_to_fall < rest && report.virial_error < largest_virial_error;
     const bool poor = !stays_poor && has_poor_triangles(foam.films, topology, h);
-    report.converged = at_rest && motion < motion_at_rest_cells && !poor;
+    report.converged = is_fine && at_rest && !poor;
     if (report.converged) break;
     if (motion < largest_motion_cells && !at_rest && !poor) continue;
 
-    const Mark mark(foam);
-    FilmUpdate update = reconstruct_films(grid, run_case, foam);
+    is_fine = is_fine || (at_rest && !poor);
+    FilmUpdate update = reconstruct_films(grid, is_fine ? fine_case : run_case, foam);
+    is_fine = is_fine && update.events.empty();
     ++report.n_reconstructions;
-    report.converged = update.events.empty() && at_rest && !poor;
-    if (report.converged) {
-      mark.restore(foam);
-      break;
-    }
     events.insert(events.end(), update.events.begin(), update.events.end());
     topology = std::move(update.topology);
     reference = foam.films.position;

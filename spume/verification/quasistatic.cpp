@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "spume/mesh/measure.hpp"
+#include "spume/simulation/equilibrate.hpp"
 #include "spume/verification/clusters.hpp"
 #include "spume/verification/tables.hpp"
 
@@ -77,9 +78,15 @@ void random_cluster(const parallel::Communicator& communicator, Report& report) 
   run_case.foam.cluster =
       simulation::ClusterShape{.count = 27, .mean_diameter = 2 * units.radius, .center = {}};
   FoamRun run(communicator, run_case);
+  std::vector<std::pair<double, double>> area_after;  // [s] of wall time, [m²]
   const auto start = std::chrono::steady_clock::now();
-  run.equilibrate();
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  simulation::equilibrate(run.grid(), run.run_case(), run.foam(), run.events,
+                          [&](const interface::RelaxStepReport& step, const mesh::Topology&) {
+                            const std::chrono::duration<double> wall =
+                                std::chrono::steady_clock::now() - start;
+                            area_after.emplace_back(wall.count(), step.area_after);
+                            return true;
+                          });
   const double area = mesh::film_area(run.foam().films);
   for (int more = 0; more < 2; ++more) {
     run.reconstruct();
@@ -88,7 +95,11 @@ void random_cluster(const parallel::Communicator& communicator, Report& report) 
   const double final_area = mesh::film_area(run.foam().films);
   report.relative("27 bubbles, 64³: area after the first relaxation", area, final_area, 3e-4,
                   "after two more");
-  report.at_most("wall time of the first relaxation [s]", wall.count(), 10, "one core");
+  double reached = 0;  // the last time that the area was farther off
+  for (const auto& [wall, a] : area_after)
+    if (a > (1 + 3e-4) * final_area) reached = wall;
+  report.at_most("wall time to within 3e-4 of the final area [s]", reached, 10, "one core");
+  report.told("wall time to rest [s]", area_after.back().first, "one core");
 }
 
 }  // namespace
