@@ -57,7 +57,7 @@ void check_length(const std::filesystem::path& path, vtkImageData& data) {
   bool compressed = false, local = false;
   while (std::getline(stream, line)) {
     const bool is_true = line.find("True") != std::string::npos;
-    if (line.rfind("CompressedData", 0) == 0) compressed = is_true;
+    if (line.rfind("CompressedData ", 0) == 0) compressed = is_true;
     if (line.rfind("ElementDataFile", 0) != 0) continue;
     local = line.find("LOCAL") != std::string::npos;
     break;  // the last line before the data
