@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "spume/interface/relax.hpp"
 #include "spume/simulation/film_update.hpp"
@@ -13,6 +14,9 @@ struct EquilibrateReport {
   double area_change = 1;   ///< relative, of the last step
   bool converged = false;
 };
+
+/// "virial identity off by 1e-05"; of a foam that has no outer pressure, that there is none.
+std::string virial_text(const EquilibrateReport& report);
 
 /// Called after every step; return false to stop.
 using OnRelaxStep = std::function<bool(const interface::RelaxStepReport&, const mesh::Topology&)>;
