@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <string>
 
 #include "spume/base/error.hpp"
@@ -49,13 +50,35 @@ vtkSmartPointer<vtkImageData> read_with(const std::filesystem::path& path, Error
   return reader->GetOutput();
 }
 
+/// MetaImage files that were cut short are taken for whole by VTK, unless they are compressed.
+void check_length(const std::filesystem::path& path, vtkImageData& data) {
+  std::ifstream stream(path, std::ios::binary);
+  std::string line;
+  bool compressed = false, local = false;
+  while (std::getline(stream, line)) {
+    const bool is_true = line.find("True") != std::string::npos;
+    if (line.rfind("CompressedData ", 0) == 0) compressed = is_true;
+    if (line.rfind("ElementDataFile", 0) != 0) continue;
+    local = line.find("LOCAL") != std::string::npos;
+    break;  // the last line before the data
+  }
+  if (!local || compressed) return;
+  const auto held = static_cast<std::int64_t>(std::filesystem::file_size(path)) - stream.tellg();
+  if (held < data.GetNumberOfPoints() * data.GetScalarSize())
+    throw InputError(fmt::format("{}: damaged: it is cut short", path.string()));
+}
+
 vtkSmartPointer<vtkImageData> read_by_ending(const std::filesystem::path& path, ErrorCounter& errors) {
   if (!std::filesystem::is_regular_file(path))
     throw InputError(fmt::format("{}: no such file", path.string()));
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return tolower(c); });
   if (ending == ".vti") return read_with<vtkXMLImageDataReader>(path, errors);
-  if (ending == ".mha" || ending == ".mhd") return read_with<vtkMetaImageReader>(path, errors);
+  if (ending == ".mha" || ending == ".mhd") {
+    const auto data = read_with<vtkMetaImageReader>(path, errors);
+    check_length(path, *data);
+    return data;
+  }
   if (ending == ".nrrd" || ending == ".nhdr") return read_with<vtkNrrdReader>(path, errors);
   throw InputError(
       fmt::format("{}: not a labelled image: the ending must be vti, mha, mhd, nrrd or nhdr", path.string()));

@@ -43,7 +43,7 @@ constexpr std::array<Column, 13> bubbles{{
     {"volume_m3", "volume enclosed by its films"},
     {"target_volume_m3", "volume that it is held at"},
     {"area_m2", "area of its films"},
-    {"pressure_Pa", "relative to the outside (phase 0)"},
+    {"pressure_Pa", "relative to the outside (phase 0); without an outside, to the mean over the volume"},
     {"x_m", "centre of volume"},
     {"y_m", "centre of volume"},
     {"z_m", "centre of volume"},

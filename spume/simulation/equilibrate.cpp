@@ -1,5 +1,7 @@
 #include "spume/simulation/equilibrate.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -68,6 +70,11 @@ class Regain {
 };
 
 }  // namespace
+
+std::string virial_text(const EquilibrateReport& report) {
+  if (report.virial_error == 0) return "no outer pressure for the virial identity";
+  return fmt::format("virial identity off by {:.2g}", report.virial_error);
+}
 
 EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, state::Foam& foam,
                               std::vector<state::Event>& events, const OnRelaxStep& on_step) {

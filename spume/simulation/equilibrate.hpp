@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "spume/interface/relax.hpp"
 #include "spume/simulation/film_update.hpp"
@@ -14,6 +15,9 @@ struct EquilibrateReport {
   double area_to_fall = 1;  ///< relative, estimated from how the steps shrink
   bool converged = false;
 };
+
+/// "virial identity off by 1e-05"; of a foam that has no outer pressure, that there is none.
+std::string virial_text(const EquilibrateReport& report);
 
 /// Called after every step, but for those that only take off what a reconstruction without topological change
 /// has added to the area (ten at most): so the area falls from call to call. Return false to stop.

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "spume/mesh/phase_frames.hpp"
+
 namespace spume::simulation {
 
 double mean_bubble_radius(const state::Phases& phases) {
@@ -21,9 +23,7 @@ double equilibrium_window(const state::Phases& phases, const state::Materials& m
 
 double virial_ratio(const mesh::FilmMesh& films, const state::Phases& phases,
                     std::span<const double> pressure, double film_area, double surface_tension) {
-  const bool meets_outside =
-      std::any_of(films.triangle.begin(), films.triangle.end(), [](const auto& t) { return t.phase_a == 0; });
-  if (!meets_outside) return 1;
+  if (!mesh::stands_free(films, phases.count())) return 1;
   double work = 0;
   for (int p = 1; p < phases.count(); ++p) work += pressure[p] * phases.target_volume[p];
   return work / (2.0 / 3 * 2 * surface_tension * film_area);

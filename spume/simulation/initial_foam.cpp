@@ -70,8 +70,8 @@ void make_initial_foam(const Case& run_case, state::Foam& foam, std::vector<stat
     const auto result =
         equilibrate(grid, run_case, foam, events, [](const auto&, const auto&) { return true; });
     events.push_back({0, result.converged ? "equilibrated" : "equilibrium not reached",
-                      fmt::format("{} steps; {} reconstructions; virial identity off by {:.2g}",
-                                  result.n_steps, result.n_reconstructions, result.virial_error)});
+                      fmt::format("{} steps; {} reconstructions; {}", result.n_steps,
+                                  result.n_reconstructions, virial_text(result))});
     wet();
   }
   for (const auto& [a, b] : start.remove_lamella) {

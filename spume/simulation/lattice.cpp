@@ -112,15 +112,16 @@ void scatter(std::vector<LatticeBubble>& bubbles, const Domain& domain, double s
 /// Moves centres to centroids and gives the cells their volumes.
 void spread_out(std::vector<LatticeBubble>& bubbles, const grid::Box& box, double spacing) {
   constexpr int sweeps_that_move = 10, most_sweeps = 200;
-  constexpr double enough = 0.03, pace = 0.25;
+  constexpr double enough = 0.02, pace = 0.25;
   SampledDiagram diagram(box, spacing);
   std::vector<double> volume;
   std::vector<Vec3> to_centroid;
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     diagram.measure(bubbles, volume, to_centroid);
-    double largest_error = 0;
+    double largest_error = 0;  // of a volume over the mean one
     for (std::size_t b = 0; b < bubbles.size(); ++b)
-      largest_error = std::max(largest_error, std::abs(volume[b] / bubbles[b].volume - 1));
+      largest_error =
+          std::max(largest_error, std::abs(volume[b] - bubbles[b].volume) / (spacing * spacing * spacing));
     if (sweep >= sweeps_that_move && largest_error < enough) return;
     for (std::size_t b = 0; b < bubbles.size(); ++b) {
       if (sweep < sweeps_that_move) bubbles[b].center += to_centroid[b];

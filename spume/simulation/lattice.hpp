@@ -37,7 +37,7 @@ int count_bubbles(const LatticeShape& lattice, const grid::Box& box);
 /// grid cell off the symmetries of the grid. Bubbles of a crystal have equal volumes. Those of a random foam
 /// have diameters of a normal distribution, cut at two standard deviations; points are added one by one, not
 /// too near to each other, and moved to the centroids of their cells ten times, while the weights give the
-/// cells their volumes, to about 3 %. Deterministic.
+/// cells their volumes, to 2 % of the mean volume. Deterministic.
 std::vector<LatticeBubble> make_lattice(const LatticeShape& lattice, const grid::Box& box);
 
 /// Edge of the cube that a bubble of mean volume fills [m].

@@ -31,10 +31,9 @@ void rearrange_quasistatically(const grid::Grid& grid, const Case& run_case, Run
     throw Interrupted("stopped in the relaxation; the state was saved");
   }
   witness.frame(run, mesh::build_topology(run.foam.films), run_case.output.rearrangement_interval);
-  witness.event(
-      run, report.converged ? "equilibrium reached" : "equilibrium not reached",
-      fmt::format("quasistatic; {} steps; virial identity off by {:.2g}; last relative change of area {:.2g}",
-                  report.n_steps, report.virial_error, report.area_change));
+  witness.event(run, report.converged ? "equilibrium reached" : "equilibrium not reached",
+                fmt::format("quasistatic; {} steps; {}; last relative change of area {:.2g}", report.n_steps,
+                            virial_text(report), report.area_change));
 }
 
 }  // namespace

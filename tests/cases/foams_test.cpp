@@ -1,9 +1,11 @@
 // Whole foams against exact solutions and against what every foam must keep.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "spume/flow/surface_tension.hpp"
 #include "spume/interface/reconstruct.hpp"
 #include "spume/mesh/measure.hpp"
 #include "spume/meshing/mesh_films.hpp"
@@ -132,6 +134,109 @@ TEST(TetrahedralCluster, relaxes_to_the_exact_area) {
   const auto volume = mesh::phase_volumes(foam.films, foam.phases.count());
   for (int p = 1; p < foam.phases.count(); ++p)
     EXPECT_NEAR(volume[p] / foam.phases.target_volume[p], 1, 1e-4);
+}
+
+/// A foam of a start that fills its box, relaxed.
+class PeriodicFoam {
+ public:
+  PeriodicFoam(const LatticeShape& lattice, int cells)
+      : run_case(empty_case(2e-3, cells)), grid(parallel::Communicator::world(), run_case.box), foam(grid) {
+    run_case.foam.lattice = lattice;
+    run_case.foam.equilibrate = true;
+    make_initial_foam(run_case, foam, events);
+  }
+  /// Film area a bubble over V^(2/3), every film once.
+  double area_per_bubble() const {
+    const double n = foam.phases.n_bubbles(), volume = run_case.box.domain().volume() / n;
+    return mesh::film_area(foam.films) / (n * std::pow(volume, 2.0 / 3));
+  }
+  std::vector<int> faces() const {
+    std::vector<int> faces(foam.phases.count(), 0);
+    for (const auto& lamella : mesh::build_topology(foam.films).lamella) {
+      ++faces[lamella.phase_a];
+      ++faces[lamella.phase_b];
+    }
+    return faces;
+  }
+
+  Case run_case;
+  grid::Grid grid;
+  state::Foam foam;
+  std::vector<state::Event> events;
+};
+
+// Kelvin's cell: 8 hexagons and 6 squares; 2.65314 V^(2/3) of film a bubble. Bar for 11 cells across a
+// bubble: 0.1 %, an eighth of (h/R)² = 0.8 %.
+TEST(KelvinsFoam, HasFourteenFacesABubbleAndItsArea) {
+  const PeriodicFoam kelvin({.structure = LatticeShape::Structure::Kelvin, .cells = 2}, 32);
+  const auto topology = mesh::build_topology(kelvin.foam.films);
+  EXPECT_EQ(kelvin.foam.phases.n_bubbles(), 16);
+  EXPECT_EQ(topology.n_nonconforming_edges, 0);
+  EXPECT_EQ(topology.n_lamellae(), 16 * 14 / 2);
+  EXPECT_EQ(topology.n_borders(), 16 * 36 / 3);
+  EXPECT_EQ(topology.n_junctions(), 16 * 24 / 4);
+  const auto faces = kelvin.faces();
+  EXPECT_EQ(faces[0], 0);
+  for (int p = 1; p <= 16; ++p) EXPECT_EQ(faces[p], 14);
+  EXPECT_NEAR(kelvin.area_per_bubble() / 2.65314, 1, 1e-3);
+}
+
+// Two cells of 12 faces and six of 14; 2.64417 V^(2/3), lower than Kelvin's by 0.34 %.
+TEST(WeaireAndPhelansFoam, HasLessAreaThanKelvins) {
+  const PeriodicFoam foam({.structure = LatticeShape::Structure::WeairePhelan, .cells = 1}, 32);
+  auto faces = foam.faces();
+  std::sort(faces.begin(), faces.end());
+  EXPECT_EQ(faces, (std::vector<int>{0, 12, 12, 14, 14, 14, 14, 14, 14}));
+  EXPECT_NEAR(foam.area_per_bubble() / 2.64417, 1, 1e-3);
+}
+
+// A foam without outside has pressures about their mean, weighted by volume.
+TEST(RandomFoam, FillsItsBoxAndItsPressuresHaveMeanZero) {
+  Case run_case = empty_case(2e-3, 32);
+  run_case.foam.lattice =
+      LatticeShape{.structure = LatticeShape::Structure::Random, .count = 12, .spread = 0.1};
+  const grid::Grid grid(parallel::Communicator::world(), run_case.box);
+  state::Foam foam(grid);
+  std::vector<state::Event> events;
+  make_initial_foam(run_case, foam, events);
+  EXPECT_TRUE(events.empty());
+  EXPECT_EQ(foam.phases.n_bubbles(), 12);
+  const auto topology = mesh::build_topology(foam.films);
+  EXPECT_EQ(topology.n_nonconforming_edges, 0);
+  EXPECT_EQ(topology.n_junctions() - topology.n_borders() + topology.n_lamellae(), 12);  // Euler, on a torus
+  const auto pressure = flow::film_forces(foam.films, topology, 13, 0.03).pressure;
+  const auto volume = mesh::phase_volumes(foam.films, 13);
+  double sum = 0, largest = 0;
+  for (int p = 1; p <= 12; ++p) {
+    EXPECT_NEAR(volume[p] / foam.phases.target_volume[p], 1, 1e-4);
+    sum += pressure[p] * volume[p] / run_case.box.domain().volume();
+    largest = std::max(largest, std::abs(pressure[p]));
+  }
+  EXPECT_LT(std::abs(sum), 1e-12 * largest);
+}
+
+// A bubble of volume V on a film that goes on is a lens of two caps that meet the film and each other at
+// 120°: caps of polar angle 60° and radius R, V = 5πR³/12, in a hole of radius (√3/2) R. The film area is
+// that of the box less 3πR²/4, plus 2πR².
+TEST(Membrane, CarriesALens) {
+  Case run_case = empty_case(4e-3, 40);
+  run_case.box.boundary[2] = grid::Boundary::Slip;
+  run_case.foam.bubble.push_back(sphere_at({0, 0, 0}));
+  run_case.foam.membrane = MembraneShape{.point = {0, 0, 1e-4}};
+  run_case.foam.equilibrate = true;
+  const grid::Grid grid(parallel::Communicator::world(), run_case.box);
+  state::Foam foam(grid);
+  std::vector<state::Event> events;
+  make_initial_foam(run_case, foam, events);
+  const auto topology = mesh::build_topology(foam.films);
+  EXPECT_EQ(topology.n_lamellae(), 3);
+  EXPECT_EQ(topology.n_borders(), 1);
+  EXPECT_EQ(foam.phases.count(), 3);
+  const double r = std::cbrt(foam.phases.target_volume[1] * 12 / (5 * std::numbers::pi));
+  const double exact = 64e-6 + 1.25 * std::numbers::pi * r * r;
+  EXPECT_NEAR(mesh::film_area(foam.films) / exact, 1, 1e-3);
+  const double above = foam.phases.target_volume[2], gas = foam.phases.target_volume[1];
+  EXPECT_NEAR(above + 0.5 * gas, 64e-6 * 4e-3, 64e-6 * 2e-4) << "half the box, but for the place of the film";
 }
 
 /// A cluster of six with liquid, on 40³.

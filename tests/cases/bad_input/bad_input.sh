@@ -77,8 +77,15 @@ wrong 's/^boundary.*/boundary = ["wall", "walls", "wall"]/'
 refuses "bad boundary" 1 "^wrong.toml:6:12: 'domain.boundary' .*did you mean 'wall'\?$" run wrong.toml
 wrong '/foam.bubble/,/radius/d'
 refuses "no bubbles" 1 "^wrong.toml: no bubbles" run wrong.toml
-wrong 's/^\[cycle\]/[foam.membrane]\npoint = [0, 0, 0]\n[cycle]/'
-refuses "feature of a later version" 1 "'foam.membrane' .* is not available in this version$" run wrong.toml
+wrong 's/^\[cycle\]/[drainage]\nscheme = "paper"\n[cycle]/'
+refuses "feature of a later version" 1 "'drainage.scheme' .* is not available in this version$" run wrong.toml
+wrong 's/^\[cycle\]/[foam.membrane]\npoint = [0, 0, 0]\nnormal = [0, 1, 1]\n[cycle]/'
+refuses "oblique membrane" 1 "^wrong.toml:.*must be along x, y or z" run wrong.toml
+wrong '/foam.bubble/,/radius/d; s/^\[cycle\]/[foam.labels]\nfile = "missing.mha"\n[cycle]/'
+refuses "labelled image that is not there" 1 "^wrong.toml: .*missing.mha: no such file$" run wrong.toml
+echo "no image" >broken.mha
+wrong '/foam.bubble/,/radius/d; s/^\[cycle\]/[foam.labels]\nfile = "broken.mha"\n[cycle]/'
+refuses "labelled image that is none" 1 "^wrong.toml: .*broken.mha: damaged" run wrong.toml
 wrong 's/^density.*/density = 0/; s/^radius.*/radius = 0/; s/^end_time/endtime/'
 refuses "three problems at once" 3 "^wrong.toml:14:1: unknown key 'cycle.endtime'; did you mean 'cycle.end_time'\?$" run wrong.toml
 refuses "the same by check" 3 "^wrong.toml:8:11: 'gas.density' must be a number > 0, not 0$" check wrong.toml

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
+
 #include "sample_case.hpp"
 
 namespace spume::config {
@@ -91,6 +93,30 @@ TEST(ParseCase, reads_a_cluster_and_its_centre) {
   EXPECT_EQ(run_case.foam.cluster->mean_diameter, 0.002);
   EXPECT_EQ(run_case.foam.cluster->seed, 77u);
   EXPECT_EQ(run_case.foam.cluster->center, (Vec3{0, 0, 0.001}));
+}
+
+TEST(ParseCase, reads_a_lattice) {
+  const auto run_case =
+      parse_case(sample_domain + "[foam.lattice]\nstructure = \"weaire-phelan\"\ncells = 1\n", "c.toml");
+  ASSERT_TRUE(run_case.foam.lattice.has_value());
+  EXPECT_EQ(run_case.foam.lattice->structure, simulation::LatticeShape::Structure::WeairePhelan);
+  EXPECT_EQ(run_case.foam.lattice->cells, 1);
+}
+
+TEST(ParseCase, finds_a_labelled_image_beside_the_case_file) {
+  const std::string text = sample_domain + "[foam.labels]\nfile = \"scan/foam.mha\"\n";
+  EXPECT_EQ(parse_case(text, "/data/run/c.toml").foam.labels->file, "/data/run/scan/foam.mha");
+  const auto overridden = parse_case(text, "/data/run/c.toml", {R"(foam.labels.file="other.vti")"});
+  EXPECT_EQ(overridden.foam.labels->file, (std::filesystem::current_path() / "other.vti").string())
+      << "on the command line, where the program runs";
+}
+
+TEST(ParseCase, counts_the_gas_above_a_membrane_as_the_last_phase) {
+  const std::string text =
+      sample_case + "[foam.membrane]\npoint = [0, 0, 0]\n[rupture]\nprotect = [[0, 2]]\n";
+  const auto run_case = parse_case(text, "c.toml", {R"(domain.boundary=["periodic", "periodic", "slip"])"});
+  ASSERT_TRUE(run_case.foam.membrane.has_value());
+  EXPECT_EQ(run_case.foam.membrane->normal, (Vec3{0, 0, 1}));
 }
 
 TEST(ParseCase, lets_options_override_the_file_and_the_last_option_win) {

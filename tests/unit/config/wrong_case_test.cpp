@@ -77,11 +77,9 @@ TEST(WrongCase, name_that_is_no_choice_is_told_with_the_choices) {
 }
 
 TEST(WrongCase, feature_of_a_later_version_is_called_that) {
-  const std::string words = "is not available in this version";
-  EXPECT_THAT(report(sample_case + "[foam.membrane]\npoint = [0, 0, 0]\n"), HasSubstr(words));
-  EXPECT_THAT(report(sample_domain + "[foam.lattice]\nstructure = \"kelvin\"\n"),
-              HasSubstr("'foam.lattice'"));
-  EXPECT_THAT(report(sample_domain + "[foam.labels]\nfile = \"a.vti\"\n"), HasSubstr("'foam.labels'"));
+  EXPECT_THAT(
+      report(sample_case + "[drainage]\nscheme = \"paper\"\n"),
+      HasSubstr("'drainage.scheme' (the choice of the drainage scheme) is not available in this version"));
 }
 
 TEST(WrongCase, all_problems_are_in_one_report_in_the_order_of_the_file) {
@@ -142,6 +140,44 @@ TEST(WrongCase, bubble_lacks_or_has_what_does_not_go_with_its_shape) {
 
 TEST(WrongCase, case_without_bubbles_is_refused) {
   EXPECT_THAT(report(sample_domain), HasSubstr("no bubbles"));
+}
+
+TEST(WrongCase, lattice_needs_a_periodic_box_that_it_fits) {
+  const std::string kelvin = sample_domain + "[foam.lattice]\nstructure = \"kelvin\"\ncells = 2\n";
+  EXPECT_EQ(report(kelvin), "");
+  EXPECT_THAT(report(kelvin, {R"(domain.boundary=["periodic", "periodic", "slip"])"}),
+              HasSubstr("[foam.lattice] needs a box that is periodic in all three directions"));
+  EXPECT_THAT(report(kelvin, {"foam.lattice.cells=1"}), HasSubstr("every bubble would touch its own image"));
+  EXPECT_EQ(report(kelvin, {"foam.lattice.cells=1", "foam.lattice.structure=weaire-phelan"}), "");
+  EXPECT_THAT(report(kelvin, {"domain.upper=[0.004, 0.004, 0.008]", "domain.cells=[32, 32, 48]"}), "");
+  EXPECT_THAT(report(kelvin, {"domain.upper=[0.004, 0.004, 0.005]", "domain.cells=[32, 32, 36]"}),
+              HasSubstr("the crystal does not fit the box: 2.25 cubic cells along z"));
+  EXPECT_THAT(report(kelvin, {"foam.lattice.cells=9"}),
+              HasSubstr("1458 bubbles are too many for this grid: each fills a cube of 2.8 cells edge"));
+  EXPECT_THAT(report(kelvin + sample_bubble), HasSubstr("wrong.toml:5:2: [foam.lattice] fills the box"));
+  EXPECT_THAT(report(kelvin, {"foam.remove_lamella=[[1, 17]]"}),
+              HasSubstr("the phases are 0 (outside) to 16"));
+}
+
+TEST(WrongCase, membrane_must_close_on_itself) {
+  const std::string text = sample_case + "[foam.membrane]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n";
+  const std::string sides = R"(domain.boundary=["periodic", "periodic", "wall"])";
+  EXPECT_EQ(report(text, {sides}), "");
+  EXPECT_THAT(report(text),
+              HasSubstr("[foam.membrane] lies across z: there the box needs \"wall\" or \"slip\""));
+  EXPECT_THAT(report(text, {R"(domain.boundary=["wall", "periodic", "wall"])"}),
+              HasSubstr("[foam.membrane] would meet a wall across x, which is not supported"));
+  EXPECT_THAT(report(text, {sides, "foam.membrane.normal=[0, 1, 1]"}), HasSubstr("must be along x, y or z"));
+  EXPECT_THAT(report(text, {sides, "foam.membrane.normal=[0, 0, 0]"}), HasSubstr("must be along x, y or z"));
+  EXPECT_THAT(report(text, {sides, "foam.membrane.point=[0, 0, 0.0035]"}),
+              HasSubstr("it must stay 4 cells inside the box"));
+  EXPECT_THAT(report(text, {sides, "gravity=[1, 0, 0]"}), HasSubstr("'gravity' along x"));
+}
+
+TEST(WrongCase, labels_need_a_file_and_stand_alone) {
+  EXPECT_THAT(report(sample_domain + "[foam.labels]\n"), HasSubstr("[foam.labels] has no 'file'"));
+  EXPECT_THAT(report(sample_case + "[foam.labels]\nfile = \"a.vti\"\n"),
+              HasSubstr("[foam.labels] gives the whole foam"));
 }
 
 TEST(WrongCase, pair_of_phases_that_does_not_exist_is_refused) {
