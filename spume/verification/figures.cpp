@@ -99,8 +99,7 @@ void fig13_oscillation(const parallel::Communicator& communicator, Scale scale, 
   report.told("largest amplitude in the fit over the radius", std::ranges::max(late) / merged,
               "small: linear law");
   report.relative("frequency of mode 2 [Hz]", fit.omega / (2 * std::numbers::pi),
-                  exact.omega / (2 * std::numbers::pi), full ? 0.03 : 0.1,
-                  "exact viscous law of the merged bubble");
+                  exact.omega / (2 * std::numbers::pi), 0.03, "exact viscous law of the merged bubble");
   report.told("damping of mode 2 [1/s]", fit.gamma, "the same; its layer is thinner than a cell",
               exact.gamma);
   report.absolute("bubbles", run.foam().phases.n_bubbles(), 1, 0, "Fig. 13");
