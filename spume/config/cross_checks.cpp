@@ -176,6 +176,12 @@ void check_pairs(const std::vector<std::array<int, 2>>& pairs, const std::string
 void cross_check(const Case& run_case, const Entries& entries, const std::vector<Place>& bubble_places,
                  Problems& problems) {
   if (check_box(run_case, entries, problems)) check_bubbles(run_case, entries, bubble_places, problems);
+  using Interface = simulation::RearrangementParameters::Interface;
+  if (run_case.rearrangement.interface == Interface::Viim &&
+      (run_case.foam.lattice || run_case.foam.membrane))
+    problems.add(entries.place_of("rearrangement.interface"),
+                 "\"viim\" needs films that stay four cells away from every face of the box: not a "
+                 "[foam.lattice] or a [foam.membrane]; use \"mesh\"");
   if (run_case.foam.labels) return;  // only the image tells how many phases there are
   const auto& foam = run_case.foam;
   const int n_bubbles = static_cast<int>(foam.bubble.size()) + (foam.cluster ? foam.cluster->count : 0) +

@@ -65,7 +65,7 @@ void interface_methods(const parallel::Communicator& communicator, Scale scale, 
       const auto quantity = [&, label = name](const char* what) {
         return fmt::format("{}: {}", label, what);
       };
-      report.told(quantity("error of film area"), o.area_error, "equal double bubble", 0.0);
+      report.absolute(quantity("error of film area"), o.area_error, 0, 0.01, "equal double bubble");
       report.told(quantity("largest speed, sqrt(2σ/(ρR))"), o.speed, "at rest", 0.0);
       report.told(quantity("seconds a step"), o.seconds_a_step, "cost");
       report.at_most(quantity("error of volumes"), o.volume_error, 1e-3, "nothing is lost");

@@ -24,7 +24,7 @@ struct Study {
   std::function<void(const parallel::Communicator&, Scale, Report&)> run;
 };
 
-/// All studies, in order of cost.
+/// All studies, the quicker ones first.
 const std::vector<Study>& studies();
 
 /// Runs one study into the report; a NumericalError inside is told as a failure of the study. Collective.
