@@ -121,7 +121,6 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
 
     is_fine = is_fine || (at_rest && !poor);
     FilmUpdate update = reconstruct_films(grid, is_fine ? fine_case : run_case, foam);
-    is_fine = is_fine && update.events.empty();
     ++report.n_reconstructions;
     events.insert(events.end(), update.events.begin(), update.events.end());
     topology = std::move(update.topology);

@@ -74,7 +74,8 @@ TEST(Equilibrate, finds_the_tetrahedral_cluster) {
 TEST(Equilibrate, leaves_no_tiny_edges_in_random_clusters) {
   for (std::uint64_t seed : {1, 2, 5}) {
     Case run_case = empty_case(46);
-    run_case.foam.cluster = ClusterShape{.count = 6, .mean_diameter = 11 * h, .spread = 0.2, .seed = seed, .center = {}};
+    run_case.foam.cluster =
+        ClusterShape{.count = 6, .mean_diameter = 11 * h, .spread = 0.2, .seed = seed, .center = {}};
     const grid::Grid grid(parallel::Communicator::world(), run_case.box);
     const Relaxed relaxed = relax(grid, run_case);
     const mesh::Topology topology = mesh::build_topology(relaxed.foam.films);

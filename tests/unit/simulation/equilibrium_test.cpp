@@ -53,10 +53,11 @@ TEST(Equilibrium, is_not_reached_while_the_virial_identity_does_not_hold) {
 TEST(Equilibrium, the_virial_ratio_of_a_bubble_is_one) {
   const double radius = 1e-3;
   state::Phases phases;
-  phases.target_volume = {0, 4 * std::numbers::pi / 3 * std::pow(radius, 3)};
+  phases.target_volume = {0, 4 * std::numbers::pi / 3 * std::pow(radius, 3), 0};
   mesh::FilmMesh films;
+  films.position.resize(3);
   films.triangle.push_back({{0, 1, 2}, 0, 1});
-  const std::vector<double> pressure{0, 4 * sigma / radius};
+  const std::vector<double> pressure{0, 4 * sigma / radius, 0};
   EXPECT_NEAR(virial_ratio(films, phases, pressure, 4 * std::numbers::pi * radius * radius, sigma), 1, 1e-12);
   films.triangle[0] = {{0, 1, 2}, 1, 2};
   EXPECT_EQ(virial_ratio(films, phases, pressure, 1, sigma), 1);
