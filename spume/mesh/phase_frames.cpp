@@ -37,6 +37,19 @@ struct Occupancy {
   }
 };
 
+Vec3 smaller(const Vec3& a, const Vec3& b) {
+  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+Vec3 larger(const Vec3& a, const Vec3& b) {
+  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
+Vec3 lowest(const std::array<Vec3, 3>& corner) {
+  return smaller(smaller(corner[0], corner[1]), corner[2]);
+}
+Vec3 highest(const std::array<Vec3, 3>& corner) {
+  return larger(larger(corner[0], corner[1]), corner[2]);
+}
+
 }  // namespace
 
 PhaseFrames::PhaseFrames(const FilmMesh& mesh, int n_phases) : domain_(mesh.domain), frame_(n_phases) {
@@ -64,15 +77,15 @@ PhaseFrames::PhaseFrames(const FilmMesh& mesh, int n_phases) : domain_(mesh.doma
     f.upper = -f.lower;
     f.n_bounded = f.bounded[0] + f.bounded[1] + f.bounded[2];
   }
+  const bool periodic = domain_.is_periodic();
   for (int t = 0; t < mesh.n_triangles(); ++t) {
     const auto corner = mesh.corners(t);
+    const Vec3 low = lowest(corner), high = highest(corner);
     for (Phase p : {mesh.triangle[t].phase_a, mesh.triangle[t].phase_b}) {
-      const Vec3 shift = domain_.near(corner[0], middle[p]) - corner[0];
-      for (const Vec3& x : corner)
-        for (int d = 0; d < 3; ++d) {
-          frame_[p].lower[d] = std::min(frame_[p].lower[d], x[d] + shift[d]);
-          frame_[p].upper[d] = std::max(frame_[p].upper[d], x[d] + shift[d]);
-        }
+      Frame& f = frame_[p];
+      const Vec3 shift = periodic ? domain_.near(corner[0], middle[p]) - corner[0] : Vec3{};
+      f.lower = smaller(f.lower, low + shift);
+      f.upper = larger(f.upper, high + shift);
     }
   }
   for (Frame& f : frame_)
@@ -84,6 +97,7 @@ PhaseFrames::PhaseFrames(const FilmMesh& mesh, int n_phases) : domain_(mesh.doma
 }
 
 std::array<Vec3, 3> PhaseFrames::place(Phase p, const std::array<Vec3, 3>& corner) const {
+  if (!domain_.is_periodic()) return corner;
   const Vec3 shift = domain_.near(corner[0], middle(p)) - corner[0];
   return {corner[0] + shift, corner[1] + shift, corner[2] + shift};
 }
@@ -94,6 +108,7 @@ double PhaseFrames::cone(Phase p, const std::array<Vec3, 3>& corner, const Vec3&
   const Vec3 o = f.n_bounded == 3 ? middle(p) : domain_.lower;
   const auto [a, b, c] = place(p, corner);
   const Vec3 centroid = (1.0 / 3) * ((a - o) + (b - o) + (c - o));
+  if (f.n_bounded == 3) return (1.0 / 3) * dot(centroid, area);
   double sum = 0;
   for (int d = 0; d < 3; ++d)
     if (f.bounded[d]) sum += centroid[d] * area[d];
