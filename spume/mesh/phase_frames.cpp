@@ -16,6 +16,11 @@ struct Occupancy {
 
   /// The whole range [low, high] in units of bins, low anywhere.
   void take(double low, double high) {
+    if (low >= 0 && high < n_bins) {
+      const int last = static_cast<int>(high);
+      for (int bin = static_cast<int>(low); bin <= last; ++bin) taken[bin] = 1;
+      return;
+    }
     const double first = std::floor(low);
     const int n = static_cast<int>(std::min<double>(std::floor(high) - first + 1, n_bins));
     int bin = static_cast<int>(first - n_bins * std::floor(first / n_bins));
@@ -55,21 +60,25 @@ Vec3 highest(const std::array<Vec3, 3>& corner) {
 PhaseFrames::PhaseFrames(const FilmMesh& mesh, int n_phases) : domain_(mesh.domain), frame_(n_phases) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<Vec3> middle(n_phases);
+  const bool periodic = domain_.is_periodic();
+  std::vector<std::array<Occupancy, 3>> occupancy(periodic ? n_phases : 0);
+  for (int t = 0; periodic && t < mesh.n_triangles(); ++t) {
+    const auto corner = mesh.corners(t);
+    const Vec3 low = lowest(corner) - domain_.lower, high = highest(corner) - domain_.lower;
+    auto &a = occupancy[mesh.triangle[t].phase_a], &b = occupancy[mesh.triangle[t].phase_b];
+    for (int d = 0; d < 3; ++d) {
+      if (!domain_.periodic[d]) continue;
+      const double bins_per_length = n_bins / domain_.size[d];
+      a[d].take(low[d] * bins_per_length, high[d] * bins_per_length);
+      b[d].take(low[d] * bins_per_length, high[d] * bins_per_length);
+    }
+  }
   for (int d = 0; d < 3; ++d) {
     if (!domain_.periodic[d]) continue;
-    std::vector<Occupancy> occupancy(n_phases);
-    const double bins_per_length = n_bins / domain_.size[d];
-    for (int t = 0; t < mesh.n_triangles(); ++t) {
-      const auto [a, b, c] = mesh.corners(t);
-      const double low = (std::min({a[d], b[d], c[d]}) - domain_.lower[d]) * bins_per_length;
-      const double high = (std::max({a[d], b[d], c[d]}) - domain_.lower[d]) * bins_per_length;
-      occupancy[mesh.triangle[t].phase_a].take(low, high);
-      occupancy[mesh.triangle[t].phase_b].take(low, high);
-    }
     for (Phase p = 0; p < n_phases; ++p) {
-      const double bin = occupancy[p].middle();
+      const double bin = occupancy[p][d].middle();
       frame_[p].bounded[d] = bin >= 0;
-      middle[p][d] = domain_.lower[d] + (bin >= 0 ? bin / bins_per_length : 0.5 * domain_.size[d]);
+      middle[p][d] = domain_.lower[d] + (bin >= 0 ? bin * domain_.size[d] / n_bins : 0.5 * domain_.size[d]);
     }
   }
   for (Frame& f : frame_) {
@@ -77,7 +86,6 @@ PhaseFrames::PhaseFrames(const FilmMesh& mesh, int n_phases) : domain_(mesh.doma
     f.upper = -f.lower;
     f.n_bounded = f.bounded[0] + f.bounded[1] + f.bounded[2];
   }
-  const bool periodic = domain_.is_periodic();
   for (int t = 0; t < mesh.n_triangles(); ++t) {
     const auto corner = mesh.corners(t);
     const Vec3 low = lowest(corner), high = highest(corner);
