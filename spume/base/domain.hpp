@@ -19,8 +19,12 @@ struct Domain {
   /// The image of x nearest to `reference` in each direction; x itself, to the last bit, where that is x.
   Vec3 near(const Vec3& x, const Vec3& reference) const {
     Vec3 image = x;
-    for (int d = 0; d < 3; ++d)
-      if (periodic[d]) image[d] -= size[d] * std::nearbyint((x[d] - reference[d]) / size[d]);
+    for (int d = 0; d < 3; ++d) {
+      const double apart = x[d] - reference[d];
+      // Nearly always false, which spares the division.
+      if (periodic[d] && std::abs(apart) > 0.5 * size[d])
+        image[d] -= size[d] * std::nearbyint(apart / size[d]);
+    }
     return image;
   }
   /// The shortest step from one point to an image of another [m].

@@ -54,7 +54,9 @@ struct Lattice {
   /// The image of coordinate c in begin … begin + n − 1; c itself in other directions.
   int image(int c, int begin, int axis) const {
     if (!periodic[axis]) return c;
-    const int n = cells[axis], r = (c - begin) % n;
+    const int n = cells[axis], step = c - begin;
+    if (step >= 0 && step < n) return c;  // nearly always, without the division
+    const int r = step % n;
     return begin + (r < 0 ? r + n : r);
   }
   /// The image of a cell that is in the block, if any is.

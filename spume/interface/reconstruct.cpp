@@ -77,7 +77,9 @@ void settle(mesh::FilmMesh& films, const state::Phases& phases, const Reconstruc
   if (!(parameters.relaxation > 0) || films.triangle.empty()) return;
   state::Phases measured = phases;
   if (!parameters.conserve_volumes) measured.target_volume = mesh::phase_volumes(films, phases.count());
-  for (int n = 0; n < n_steps; ++n) relax_step(films, measured, parameters.relaxation * h * h / n_steps);
+  const mesh::Topology topology = mesh::build_topology(films);
+  for (int n = 0; n < n_steps; ++n)
+    relax_step(films, topology, measured, parameters.relaxation * h * h / n_steps);
 
   mesh::RemeshParameters tidying = parameters.remesh;
   tidying.collapse_below = tidying.merge_below;

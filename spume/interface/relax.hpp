@@ -1,6 +1,7 @@
 #pragma once
 
 #include "spume/mesh/film_mesh.hpp"
+#include "spume/mesh/topology.hpp"
 #include "spume/state/phases.hpp"
 
 namespace spume::interface {
@@ -18,5 +19,8 @@ struct RelaxStepReport {
 /// then volumes restored on the mesh. τ [m²] is the time in units where the film tension over the friction is
 /// one.
 RelaxStepReport relax_step(mesh::FilmMesh& films, const state::Phases& phases, double tau);
+/// The same for films whose topology, which a step keeps, is known.
+RelaxStepReport relax_step(mesh::FilmMesh& films, const mesh::Topology& topology, const state::Phases& phases,
+                           double tau);
 
 }  // namespace spume::interface

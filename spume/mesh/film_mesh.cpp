@@ -9,15 +9,6 @@ FilmTriangle make_triangle(int v0, int v1, int v2, Phase p, Phase q) {
   return {{v0, v2, v1}, q, p};
 }
 
-Vec3 doubled_area_normal(const FilmMesh& mesh, int triangle) {
-  const auto& v = mesh.triangle[triangle].vertex;
-  return cross(mesh.edge(v[0], v[1]), mesh.edge(v[0], v[2]));
-}
-
-double triangle_area(const FilmMesh& mesh, int triangle) {
-  return 0.5 * norm(doubled_area_normal(mesh, triangle));
-}
-
 std::vector<int> drop_unused_vertices(FilmMesh& mesh) {
   std::vector<int> new_index(mesh.position.size(), -1);
   for (const auto& t : mesh.triangle)

@@ -43,8 +43,13 @@ struct FilmMesh {
 FilmTriangle make_triangle(int v0, int v1, int v2, Phase p, Phase q);
 
 /// Twice the area times the unit normal: (b − a) × (c − a) [m²].
-Vec3 doubled_area_normal(const FilmMesh& mesh, int triangle);
-double triangle_area(const FilmMesh& mesh, int triangle);
+inline Vec3 doubled_area_normal(const FilmMesh& mesh, int triangle) {
+  const auto& v = mesh.triangle[triangle].vertex;
+  return cross(mesh.edge(v[0], v[1]), mesh.edge(v[0], v[2]));
+}
+inline double triangle_area(const FilmMesh& mesh, int triangle) {
+  return 0.5 * norm(doubled_area_normal(mesh, triangle));
+}
 
 /// Removes vertices that no triangle uses, keeping the order of the others.
 /// Gives the new index of each old vertex, −1 for the removed ones.

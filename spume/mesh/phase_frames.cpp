@@ -16,6 +16,11 @@ struct Occupancy {
 
   /// The whole range [low, high] in units of bins, low anywhere.
   void take(double low, double high) {
+    if (low >= 0 && high < n_bins) {
+      const int last = static_cast<int>(high);
+      for (int bin = static_cast<int>(low); bin <= last; ++bin) taken[bin] = 1;
+      return;
+    }
     const double first = std::floor(low);
     const int n = static_cast<int>(std::min<double>(std::floor(high) - first + 1, n_bins));
     int bin = static_cast<int>(first - n_bins * std::floor(first / n_bins));
@@ -37,26 +42,43 @@ struct Occupancy {
   }
 };
 
+Vec3 smaller(const Vec3& a, const Vec3& b) {
+  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+Vec3 larger(const Vec3& a, const Vec3& b) {
+  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
+Vec3 lowest(const std::array<Vec3, 3>& corner) {
+  return smaller(smaller(corner[0], corner[1]), corner[2]);
+}
+Vec3 highest(const std::array<Vec3, 3>& corner) {
+  return larger(larger(corner[0], corner[1]), corner[2]);
+}
+
 }  // namespace
 
 PhaseFrames::PhaseFrames(const FilmMesh& mesh, int n_phases) : domain_(mesh.domain), frame_(n_phases) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<Vec3> middle(n_phases);
+  const bool periodic = domain_.is_periodic();
+  std::vector<std::array<Occupancy, 3>> occupancy(periodic ? n_phases : 0);
+  for (int t = 0; periodic && t < mesh.n_triangles(); ++t) {
+    const auto corner = mesh.corners(t);
+    const Vec3 low = lowest(corner) - domain_.lower, high = highest(corner) - domain_.lower;
+    auto &a = occupancy[mesh.triangle[t].phase_a], &b = occupancy[mesh.triangle[t].phase_b];
+    for (int d = 0; d < 3; ++d) {
+      if (!domain_.periodic[d]) continue;
+      const double bins_per_length = n_bins / domain_.size[d];
+      a[d].take(low[d] * bins_per_length, high[d] * bins_per_length);
+      b[d].take(low[d] * bins_per_length, high[d] * bins_per_length);
+    }
+  }
   for (int d = 0; d < 3; ++d) {
     if (!domain_.periodic[d]) continue;
-    std::vector<Occupancy> occupancy(n_phases);
-    const double bins_per_length = n_bins / domain_.size[d];
-    for (int t = 0; t < mesh.n_triangles(); ++t) {
-      const auto [a, b, c] = mesh.corners(t);
-      const double low = (std::min({a[d], b[d], c[d]}) - domain_.lower[d]) * bins_per_length;
-      const double high = (std::max({a[d], b[d], c[d]}) - domain_.lower[d]) * bins_per_length;
-      occupancy[mesh.triangle[t].phase_a].take(low, high);
-      occupancy[mesh.triangle[t].phase_b].take(low, high);
-    }
     for (Phase p = 0; p < n_phases; ++p) {
-      const double bin = occupancy[p].middle();
+      const double bin = occupancy[p][d].middle();
       frame_[p].bounded[d] = bin >= 0;
-      middle[p][d] = domain_.lower[d] + (bin >= 0 ? bin / bins_per_length : 0.5 * domain_.size[d]);
+      middle[p][d] = domain_.lower[d] + (bin >= 0 ? bin * domain_.size[d] / n_bins : 0.5 * domain_.size[d]);
     }
   }
   for (Frame& f : frame_) {
@@ -66,13 +88,12 @@ PhaseFrames::PhaseFrames(const FilmMesh& mesh, int n_phases) : domain_(mesh.doma
   }
   for (int t = 0; t < mesh.n_triangles(); ++t) {
     const auto corner = mesh.corners(t);
+    const Vec3 low = lowest(corner), high = highest(corner);
     for (Phase p : {mesh.triangle[t].phase_a, mesh.triangle[t].phase_b}) {
-      const Vec3 shift = domain_.near(corner[0], middle[p]) - corner[0];
-      for (const Vec3& x : corner)
-        for (int d = 0; d < 3; ++d) {
-          frame_[p].lower[d] = std::min(frame_[p].lower[d], x[d] + shift[d]);
-          frame_[p].upper[d] = std::max(frame_[p].upper[d], x[d] + shift[d]);
-        }
+      Frame& f = frame_[p];
+      const Vec3 shift = periodic ? domain_.near(corner[0], middle[p]) - corner[0] : Vec3{};
+      f.lower = smaller(f.lower, low + shift);
+      f.upper = larger(f.upper, high + shift);
     }
   }
   for (Frame& f : frame_)
@@ -84,6 +105,7 @@ PhaseFrames::PhaseFrames(const FilmMesh& mesh, int n_phases) : domain_(mesh.doma
 }
 
 std::array<Vec3, 3> PhaseFrames::place(Phase p, const std::array<Vec3, 3>& corner) const {
+  if (!domain_.is_periodic()) return corner;
   const Vec3 shift = domain_.near(corner[0], middle(p)) - corner[0];
   return {corner[0] + shift, corner[1] + shift, corner[2] + shift};
 }
@@ -94,6 +116,7 @@ double PhaseFrames::cone(Phase p, const std::array<Vec3, 3>& corner, const Vec3&
   const Vec3 o = f.n_bounded == 3 ? middle(p) : domain_.lower;
   const auto [a, b, c] = place(p, corner);
   const Vec3 centroid = (1.0 / 3) * ((a - o) + (b - o) + (c - o));
+  if (f.n_bounded == 3) return (1.0 / 3) * dot(centroid, area);
   double sum = 0;
   for (int d = 0; d < 3; ++d)
     if (f.bounded[d]) sum += centroid[d] * area[d];
