@@ -12,7 +12,8 @@ namespace spume::interface {
 
 namespace {
 
-constexpr int max_candidates = 24;
+constexpr int max_near = 128;       // fields that have values at a cube
+constexpr int max_candidates = 24;  // of them, those that may win somewhere in it
 constexpr int max_corners = 4 + max_candidates;
 
 /// The six ways from a cube's lowest to its highest corner, one axis at a time: the Kuhn tetrahedra. The
@@ -173,7 +174,7 @@ class Contourer {
     n_cube_ = 0;
     for (const PhaseField* field : bins_.at(i, j, k)) {
       if (!field->place(i, j, k) || !field->place(i + 1, j + 1, k + 1)) continue;
-      if (n_cube_ == max_candidates) throw NumericalError("more than 24 phases compete for one cell");
+      if (n_cube_ == max_near) throw NumericalError("more than 128 phases are near one cell");
       cube_value_[n_cube_] = values_of_cube(*field, i, j, k);
       cube_phase_[n_cube_++] = field->phase;
     }
@@ -190,7 +191,7 @@ class Contourer {
       }
       return false;
     };
-    std::array<bool, max_candidates> beaten;
+    std::array<bool, max_near> beaten;
     for (int a = 0; a < n_cube_; ++a) beaten[a] = is_beaten(a);
     int n = 0;
     for (int a = 0; a < n_cube_; ++a) {
@@ -198,6 +199,7 @@ class Contourer {
       cube_phase_[n] = cube_phase_[a];
       cube_value_[n++] = cube_value_[a];
     }
+    if (n > max_candidates) throw NumericalError("more than 24 phases compete for one cell");
     n_cube_ = n;
   }
 
@@ -375,8 +377,8 @@ class Contourer {
   Index3 cube_;
   std::array<mesh::Phase, 8> cube_winner_;
   int n_cube_ = 0;
-  std::array<mesh::Phase, max_candidates> cube_phase_;
-  std::array<std::array<double, 8>, max_candidates> cube_value_;
+  std::array<mesh::Phase, max_near> cube_phase_;
+  std::array<std::array<double, 8>, max_near> cube_value_;
   // of the tetrahedron
   std::array<int, 4> mask_;  ///< corners of the cube along the chain
   bool positive_ = true;
