@@ -10,18 +10,15 @@
 #include <cmath>
 #include <cstdio>
 #include <list>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/poisson_reference.hpp"
 #include "spume/base/stage_times.hpp"
 #include "spume/flow/navier_stokes.hpp"
-#include "spume/flow/surface_tension.hpp"
-#include "spume/interface/carry.hpp"
-#include "spume/mesh/measure.hpp"
-#include "spume/mesh/volume_constraint.hpp"
 #include "spume/parallel/session.hpp"
-#include "spume/simulation/film_update.hpp"
+#include "spume/simulation/foam_motion.hpp"
 #include "spume/simulation/initial_foam.hpp"
 
 namespace {
@@ -56,103 +53,62 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+/// Seconds of every stage since `before`.
+StageTimes since(const StageTimes& before, StageTimes now) {
+  for (const auto& [stage, seconds] : before.seconds()) now.add(stage, -seconds);
+  return now;
+}
+double total_of(const StageTimes& times) {
+  double sum = 0;
+  for (const auto& [stage, seconds] : times.seconds()) sum += seconds;
+  return sum;
+}
+
 /// A foam that rearranges as the program does it.
 class Rearrangement {
  public:
   explicit Rearrangement(const simulation::Case& run_case)
-      : case_(run_case),
-        grid_(parallel::Communicator::world(), run_case.box),
-        foam_(grid_),
-        gas_(grid_, run_case.materials.gas, run_case.flow),
-        spreader_(grid_),
-        force_(grid_),
-        film_velocity_(grid_) {
+      : case_(run_case), grid_(parallel::Communicator::world(), run_case.box), run_(grid_) {
     std::vector<state::Event> events;
-    simulation::make_initial_foam(case_, foam_, events);
-    topology_ = mesh::build_topology(foam_.films);
-    reference_ = foam_.films.position;
+    simulation::make_initial_foam(case_, run_.foam, events);
+    motion_.emplace(grid_, case_, run_);
+    forget_times();
   }
 
   void step() {
-    const auto& materials = case_.materials;
-    const double h = grid_.h();
-    times_.restart();
-    const auto forces =
-        flow::film_forces(foam_.films, topology_, foam_.phases.count(), materials.film.surface_tension);
-    times_.lap("film forces");
-    spreader_.spread(foam_.films, forces, kernel_, force_);
-    times_.lap("spreading");
-    const double dt = std::min(flow::capillary_limit(h, materials, case_.rearrangement.capillary_factor).dt,
-                               gas_.advection_limit(foam_.gas, case_.rearrangement.cfl).dt);
-    times_.lap("time step");
-    gas_.step(foam_.gas, force_, dt);
-    times_.lap("gas");
-    gas_.film_velocity(foam_.gas, film_velocity_);
-    interface::carry(foam_.films, film_velocity_, kernel_, dt);
-    times_.lap("moving films");
-    mesh::restore_volumes(foam_.films, foam_.phases.target_volume, 1, 0.1 * h);
-    times_.lap("volumes");
-    ++steps_since_reconstruction_;
-    if (needs_reconstruction()) reconstruct();
-    times_.restart();
-    transport::fill_young_films(foam_.films, topology_, foam_.liquid, h, case_.transport);
-    times_.lap("young films");
-    energy_ = flow::kinetic_energy(foam_.gas, materials.gas.density) +
-              2 * materials.film.surface_tension * mesh::film_area(foam_.films);
-    speed_ = flow::max_speed(foam_.gas);
-    times_.lap("measures");
+    last_ = motion_->step();
+    n_reconstructions_ += last_.reconstructed;
   }
 
   void forget_times() {
-    times_ = {};
-    reconstruction_times_ = {};
-    gas_before_ = gas_.times();
+    steps_before_ = motion_->times();
+    gas_before_ = motion_->gas_times();
+    reconstructions_before_ = motion_->reconstruction_times();
     n_reconstructions_ = 0;
   }
   /// Stages of all steps since forget_times(), in place of "gas" its own stages.
   StageTimes times() const {
+    const StageTimes steps = since(steps_before_, motion_->times()),
+                     gas = since(gas_before_, motion_->gas_times()), reconstructions = reconstruction_times();
     StageTimes all;
-    for (const auto& [stage, seconds] : times_.seconds())
+    for (const auto& [stage, seconds] : steps.seconds())
       if (stage != "gas") all.add(stage, seconds);
-    StageTimes gas = gas_.times();
-    for (const auto& [stage, seconds] : gas_before_.seconds()) gas.add(stage, -seconds);
     for (const auto& [stage, seconds] : gas.seconds()) all.add(name("gas: ", stage), seconds);
-    for (const auto& [stage, seconds] : reconstruction_times_.seconds())
+    for (const auto& [stage, seconds] : reconstructions.seconds())
       all.add(name("reconstruction: ", stage), seconds);
     return all;
   }
   int n_reconstructions() const { return n_reconstructions_; }
-  double reconstruction_seconds() const {
-    double sum = 0;
-    for (const auto& [stage, seconds] : reconstruction_times_.seconds()) sum += seconds;
-    return sum;
+  double reconstruction_seconds() const { return total_of(reconstruction_times()); }
+  int n_triangles() const { return run_.foam.films.n_triangles(); }
+  double energy() const {
+    return last_.kinetic_energy + 2 * case_.materials.film.surface_tension * last_.film_area;
   }
-  int n_triangles() const { return foam_.films.n_triangles(); }
-  double energy() const { return energy_; }
-  double speed() const { return speed_; }
+  double speed() const { return flow::max_speed(run_.foam.gas); }
 
  private:
-  bool needs_reconstruction() const {
-    double motion = 0;
-    for (std::size_t v = 0; v < reference_.size(); ++v)
-      motion = std::max(motion, norm(foam_.films.position[v] - reference_[v]));
-    motion /= grid_.h();
-    return motion > case_.rearrangement.reconstruction_displacement ||
-           (steps_since_reconstruction_ >= case_.rearrangement.reconstruction_interval && motion > 0.25);
-  }
-  void reconstruct() {
-    const double start = processor_time();
-    simulation::FilmUpdate update = simulation::reconstruct_films(grid_, case_, foam_);
-    double inside = 0;
-    for (const auto& [stage, seconds] : update.reconstruction.times.seconds()) {
-      reconstruction_times_.add(stage, seconds);
-      inside += seconds;
-    }
-    reconstruction_times_.add("liquid transfer", processor_time() - start - inside);
-    topology_ = std::move(update.topology);
-    reference_ = foam_.films.position;
-    steps_since_reconstruction_ = 0;
-    ++n_reconstructions_;
+  StageTimes reconstruction_times() const {
+    return since(reconstructions_before_, motion_->reconstruction_times());
   }
   std::string_view name(const char* group, std::string_view stage) const {
     return names_.emplace_back(group + std::string(stage));
@@ -160,16 +116,11 @@ class Rearrangement {
 
   simulation::Case case_;
   grid::Grid grid_;
-  state::Foam foam_;
-  flow::NavierStokes gas_;
-  grid::KernelCoupling kernel_;
-  flow::ForceSpreader spreader_;
-  grid::VectorField force_, film_velocity_;
-  mesh::Topology topology_;
-  std::vector<Vec3> reference_;
-  int steps_since_reconstruction_ = 0, n_reconstructions_ = 0;
-  double energy_ = 0, speed_ = 0;
-  StageTimes times_, reconstruction_times_, gas_before_;
+  simulation::RunState run_;
+  std::optional<simulation::FoamMotion> motion_;
+  simulation::MotionStep last_;
+  int n_reconstructions_ = 0;
+  StageTimes steps_before_, gas_before_, reconstructions_before_;
   mutable std::list<std::string> names_;  // that StageTimes refer to
 };
 
@@ -200,6 +151,7 @@ void run(int cells, int bubbles, int n_warm_up, int n_steps) {
   }
 
   const auto& world = parallel::Communicator::world();
+  const double speed = foam.speed();
   if (!world.is_root()) return;
   const double n_cells = std::pow(static_cast<double>(cells), 3), unit = median(poisson);
   const double step = total / n_steps;
@@ -218,7 +170,7 @@ void run(int cells, int bubbles, int n_warm_up, int n_steps) {
   if (memory > memory_before)
     std::printf("  peak memory       %9.0f bytes a cell, the program's own %.0f MB included\n",
                 memory / n_cells, memory_before / 1e6);
-  std::printf("  energy %.15g J, speed %.15g m/s\n", foam.energy(), foam.speed());
+  std::printf("  energy %.15g J, speed %.15g m/s\n", foam.energy(), speed);
   const StageTimes times = foam.times();
   for (const auto& [part, seconds] : times.seconds())
     std::printf("    %-32.*s %9.5f s %6.2f Poisson %5.1f %%\n", static_cast<int>(part.size()), part.data(),

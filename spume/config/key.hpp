@@ -93,7 +93,7 @@ struct Choice {
   std::vector<std::string> names;
   std::function<std::vector<int>(Record&)> get;
   std::function<void(Record&, const std::vector<int>&)> set;
-  int count = 1;                     ///< 1: a single name; n > 1: an array of n; any_count
+  int count = 1;  ///< 1: a single name; n > 1: an array of n; any_count
 };
 
 template <class Record>

@@ -101,8 +101,7 @@ RelaxStepReport relax_step(mesh::FilmMesh& films, const mesh::Topology& topology
   move_vertices(implicit_step(films, tau), mesh::weighted_volume_gradient(films, pressure), films);
   mesh::restore_volumes(films, phases.target_volume, 2, std::sqrt(tau));
 
-  for (int v = 0; v < films.n_vertices(); ++v)
-    report.largest_displacement = std::max(report.largest_displacement, norm(films.position[v] - before[v]));
+  report.largest_displacement = mesh::largest_distance(films.position, before);
   report.area_after = mesh::film_area(films);
   return report;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <tuple>
 #include <utility>
 
 namespace spume::mesh {
@@ -35,11 +34,6 @@ struct Candidate {
   int v, w;
   double target;  // edge length wanted here
   bool tiny;      // the edge is tiny, or v is a film vertex of three triangles
-};
-
-struct ShortEdge {
-  double length_squared;
-  int low, high;
 };
 
 class Collapser {
@@ -84,9 +78,9 @@ class Collapser {
   }
 
   /// Fresh stars and normals; the edges to collapse, shortest first, each once.
-  std::vector<ShortEdge> begin_pass();
-  void fetch_ahead(const std::vector<ShortEdge>& edges, std::size_t n) const;
-  int collapse_listed(const std::vector<ShortEdge>& edges);
+  std::vector<EdgeLength> begin_pass();
+  void fetch_ahead(const std::vector<EdgeLength>& edges, std::size_t n) const;
+  int collapse_listed(const std::vector<EdgeLength>& edges);
   bool try_collapse(int v, int w);
   bool is_allowed_by_kind(const Candidate& c, int n_shared) const;
   bool keeps_topology(const Candidate& c, int n_shared);
@@ -108,7 +102,7 @@ class Collapser {
   int next_mark_ = 1;
 };
 
-std::vector<ShortEdge> Collapser::begin_pass() {
+std::vector<EdgeLength> Collapser::begin_pass() {
   for (int v = 0; v < mesh_.n_vertices(); ++v) {
     drop_dead_from_star(v);
     normal_[v] = {};
@@ -116,7 +110,7 @@ std::vector<ShortEdge> Collapser::begin_pass() {
     for (int t : star_[v]) normal_[v] += doubled_area_normal(mesh_, t);
     normal_[v] = normalized(normal_[v]);
   }
-  std::vector<ShortEdge> edges;
+  std::vector<EdgeLength> edges;
   for (int t = 0; t < mesh_.n_triangles(); ++t) {
     if (dead_triangle_[t]) continue;
     for (int c = 0; c < 3; ++c) {
@@ -130,16 +124,13 @@ std::vector<ShortEdge> Collapser::begin_pass() {
         edges.push_back({length_squared, low, high});
     }
   }
-  const auto key = [](const ShortEdge& e) { return std::tuple(e.length_squared, e.low, e.high); };
-  std::sort(edges.begin(), edges.end(),
-            [&](const ShortEdge& a, const ShortEdge& b) { return key(a) < key(b); });
-  const auto same = [&](const ShortEdge& a, const ShortEdge& b) { return key(a) == key(b); };
-  edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
 }
 
 /// Edges in the order of their lengths lie anywhere in memory; the processor is told early what comes.
-void Collapser::fetch_ahead(const std::vector<ShortEdge>& edges, std::size_t n) const {
+void Collapser::fetch_ahead(const std::vector<EdgeLength>& edges, std::size_t n) const {
   constexpr std::size_t far = 12, near = 6, next = 3;
   if (n + far < edges.size())
     for (int v : {edges[n + far].low, edges[n + far].high}) {
@@ -154,11 +145,11 @@ void Collapser::fetch_ahead(const std::vector<ShortEdge>& edges, std::size_t n) 
       for (int t : star_[v]) __builtin_prefetch(&mesh_.triangle[t]);
 }
 
-int Collapser::collapse_listed(const std::vector<ShortEdge>& edges) {
+int Collapser::collapse_listed(const std::vector<EdgeLength>& edges) {
   int n_collapsed = 0;
   for (std::size_t n = 0; n < edges.size(); ++n) {
     fetch_ahead(edges, n);
-    const ShortEdge& e = edges[n];
+    const EdgeLength& e = edges[n];
     if (dead_vertex_[e.low] || dead_vertex_[e.high]) continue;
     int v = e.low, w = e.high;  // v goes: the one of lower precedence, or else a needless one
     if (kind(w) < kind(v) || (kind(w) == kind(v) && hangs_in_three_triangles(w))) std::swap(v, w);

@@ -1,6 +1,7 @@
 #include "spume/mesh/measure.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 
 #include "spume/base/union_find.hpp"
 #include "spume/mesh/phase_frames.hpp"
@@ -34,6 +35,12 @@ void centre_groups_without_outside(const FilmMesh& mesh, std::vector<double>& pr
 }
 
 }  // namespace
+
+double largest_distance(std::span<const Vec3> a, std::span<const Vec3> b) {
+  double largest = 0;
+  for (std::size_t n = 0; n < a.size(); ++n) largest = std::max(largest, norm(a[n] - b[n]));
+  return largest;
+}
 
 double film_area(const FilmMesh& mesh) {
   double area = 0;

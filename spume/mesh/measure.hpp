@@ -8,6 +8,8 @@
 
 namespace spume::mesh {
 
+/// The largest distance between points of the same number [m].
+double largest_distance(std::span<const Vec3> a, std::span<const Vec3> b);
 /// Σ of triangle areas, every film once [m²].
 double film_area(const FilmMesh& mesh);
 /// Volume of every phase by the divergence theorem [m³], indexed by phase; the entry of the outside is minus

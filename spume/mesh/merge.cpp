@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <tuple>
 
 #include "spume/base/union_find.hpp"
 
@@ -13,11 +12,6 @@ namespace {
 constexpr int largest_number_of_passes = 6;
 constexpr int largest_group = 12;
 constexpr int largest_number_of_phases = 8;  // that may meet at the new vertex
-
-struct TinyEdge {
-  double length_squared;
-  int low, high;
-};
 
 class Merger {
  public:
@@ -31,17 +25,17 @@ class Merger {
 
   /// One pass over the mesh as it was at the start: what is next to a merged group waits for the next one.
   int run() {
-    const std::vector<TinyEdge> edges = tiny_edges();
+    const std::vector<EdgeLength> edges = tiny_edges();
     if (edges.empty()) return 0;
     star_ = vertex_stars(mesh_);
     UnionFind groups(mesh_.n_vertices());
-    for (const TinyEdge& e : edges) groups.join(e.low, e.high);
+    for (const EdgeLength& e : edges) groups.join(e.low, e.high);
     std::vector<std::vector<int>> members(mesh_.n_vertices());
     for (int v = 0; v < mesh_.n_vertices(); ++v) members[groups.find(v)].push_back(v);
 
     int n_merged = 0;
     std::vector<char> tried(mesh_.n_vertices(), 0);
-    for (const TinyEdge& e : edges) {
+    for (const EdgeLength& e : edges) {
       const int g = groups.find(e.low);
       if (!tried[g]) {
         tried[g] = 1;
@@ -54,7 +48,7 @@ class Merger {
   }
 
  private:
-  std::vector<TinyEdge> tiny_edges() const;
+  std::vector<EdgeLength> tiny_edges() const;
   int try_merge(const std::vector<int>& group);
   bool is_small(const std::vector<int>& group) const;
   Vec3 meeting_point(const std::vector<int>& group) const;
@@ -80,17 +74,15 @@ class Merger {
   std::vector<Remaining> remaining_;
 };
 
-std::vector<TinyEdge> Merger::tiny_edges() const {
-  std::vector<TinyEdge> edges;
+std::vector<EdgeLength> Merger::tiny_edges() const {
+  std::vector<EdgeLength> edges;
   for (const MeshEdge& e : build_edges(mesh_).edge) {
     const double limit = parameters_.merge_below * 0.5 * (target_[e.low] + target_[e.high]);
     const double length_squared = norm_squared(mesh_.edge(e.low, e.high));
     if (length_squared < limit * limit && !work_.held[e.low] && !work_.held[e.high])
       edges.push_back({length_squared, e.low, e.high});
   }
-  std::sort(edges.begin(), edges.end(), [](const TinyEdge& a, const TinyEdge& b) {
-    return std::tuple(a.length_squared, a.low, a.high) < std::tuple(b.length_squared, b.low, b.high);
-  });
+  std::sort(edges.begin(), edges.end());
   return edges;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <vector>
 
 #include "spume/mesh/film_mesh.hpp"
@@ -16,6 +17,12 @@ struct EdgeUse {
 struct MeshEdge {
   int low, high;
   int first_use, n_uses;
+};
+/// An edge by its length, low < high: sorted, short ones come first, and equals in the order of vertices.
+struct EdgeLength {
+  double length_squared;  ///< [m²]
+  int low, high;
+  auto operator<=>(const EdgeLength&) const = default;
 };
 /// All edges in the order of (low, high); the uses of each in triangle order.
 struct EdgeTable {

@@ -13,12 +13,6 @@ namespace spume::simulation {
 
 namespace {
 
-double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  double largest = 0;
-  for (std::size_t v = 0; v < a.size(); ++v) largest = std::max(largest, norm(a[v] - b[v]));
-  return largest;
-}
-
 /// The step length: longer while steps are small and the area falls, shorter after a step that raised it.
 class Pace {
  public:
@@ -112,7 +106,7 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
     if (regain.goes_on(step.area_after)) continue;
     if (!on_step(step, topology)) break;
 
-    const double motion = largest_distance(foam.films.position, reference) / h;
+    const double motion = mesh::largest_distance(foam.films.position, reference) / h;
     const bool at_rest = report.area_to_fall < rest && report.virial_error < largest_virial_error;
     const bool poor = !stays_poor && has_poor_triangles(foam.films, topology, h);
     report.converged = is_fine && at_rest && !poor;

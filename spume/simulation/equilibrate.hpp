@@ -26,8 +26,8 @@ using OnRelaxStep = std::function<bool(const interface::RelaxStepReport&, const 
 /// Relaxes the films to equilibrium without gas (implicit volume-constrained curvature flow), reconstructing
 /// after half a cell of motion and where triangles have become poor (edges below 0.2 h, angles below 15
 /// degrees). A step that would raise the area is taken again with a quarter of its length. At rest when the
-/// area has less than 1e-5 to fall and the virial identity holds within 1e-4, first on the ordinary mesh, then
-/// on a finer one (edges of 0.68 h), which the foam keeps. Collective.
+/// area has less than 1e-5 to fall and the virial identity holds within 1e-4, first on the ordinary mesh,
+/// then on a finer one (edges of 0.68 h), which the foam keeps. Collective.
 EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, state::Foam& foam,
                               std::vector<state::Event>& events, const OnRelaxStep& on_step);
 

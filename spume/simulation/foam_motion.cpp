@@ -35,13 +35,6 @@ flow::StepLimit FoamMotion::choose_step() const {
                            [](const auto& a, const auto& b) { return a.dt < b.dt; });
 }
 
-double FoamMotion::largest_motion() const {
-  double largest = 0;
-  for (std::size_t v = 0; v < run_.rearrange.reference.size(); ++v)
-    largest = std::max(largest, norm(run_.foam.films.position[v] - run_.rearrange.reference[v]));
-  return largest;
-}
-
 /// Vertices drift within films and along borders that are at rest: that does not count here.
 double FoamMotion::largest_normal_motion() const {
   const auto& films = run_.foam.films;
@@ -66,14 +59,22 @@ double FoamMotion::largest_normal_motion() const {
 
 bool FoamMotion::needs_reconstruction() const {
   const auto& parameters = case_.rearrangement;
-  if (largest_motion() > parameters.reconstruction_displacement * grid_.h()) return true;
+  const double motion = mesh::largest_distance(run_.rearrange.reference, run_.foam.films.position);
+  if (motion > parameters.reconstruction_displacement * grid_.h()) return true;
   constexpr double moving = 0.25;  // a foam at rest is left alone: every reconstruction gives it a small kick
   return run_.rearrange.steps_since_reconstruction >= parameters.reconstruction_interval &&
          largest_normal_motion() > moving * grid_.h();
 }
 
 FilmUpdate FoamMotion::reconstruct() {
+  const double start = processor_time();
   FilmUpdate update = reconstruct_films(grid_, case_, run_.foam);
+  double inside = 0;
+  for (const auto& [stage, seconds] : update.reconstruction.times.seconds()) {
+    reconstruction_times_.add(stage, seconds);
+    inside += seconds;
+  }
+  reconstruction_times_.add("liquid transfer", processor_time() - start - inside);
   run_.rearrange.reference = run_.foam.films.position;
   run_.rearrange.steps_since_reconstruction = 0;
   topology_ = update.topology;
@@ -85,6 +86,7 @@ FilmUpdate FoamMotion::reconstruct() {
 double FoamMotion::carry_films(double dt, std::vector<state::Event>& events) {
   auto& foam = run_.foam;
   gas_.film_velocity(foam.gas, film_velocity_);
+  times_.lap("gas");
   if (viim_) {
     ViimStep moved = viim_->move(foam, film_velocity_, kernel_, dt);
     topology_ = std::move(moved.update.topology);
@@ -94,10 +96,12 @@ double FoamMotion::carry_films(double dt, std::vector<state::Event>& events) {
     return moved.area_carried;
   }
   interface::carry(foam.films, film_velocity_, kernel_, dt);
+  times_.lap("moving films");
   ++run_.rearrange.steps_since_reconstruction;
   const double area_carried = mesh::film_area(foam.films);
   if (case_.rearrangement.conserve_volumes)
     mesh::restore_volumes(foam.films, foam.phases.target_volume, 1, 0.1 * grid_.h());
+  times_.lap("volumes");
   if (needs_reconstruction()) events = reconstruct().events;
   return area_carried;
 }
@@ -105,21 +109,29 @@ double FoamMotion::carry_films(double dt, std::vector<state::Event>& events) {
 MotionStep FoamMotion::step() {
   auto& foam = run_.foam;
   const double sigma = case_.materials.film.surface_tension;
+  times_.restart();
   const auto forces = flow::film_forces(foam.films, topology_, foam.phases.count(), sigma);
+  times_.lap("film forces");
   spreader_.spread(foam.films, forces, kernel_, force_);
+  times_.lap("spreading");
 
   MotionStep done{.limit = choose_step(), .events = {}};
   done.virial = virial_ratio(foam.films, foam.phases, forces.pressure, mesh::film_area(foam.films), sigma);
+  times_.lap("time step and virial");
   gas_.step(foam.gas, force_, done.limit.dt);
+  times_.lap("gas");
   const double area_carried = carry_films(done.limit.dt, done.events);
   foam.time += done.limit.dt;
   run_.rearrange.elapsed += done.limit.dt;
   done.reconstructed = run_.rearrange.steps_since_reconstruction == 0;
+  times_.restart();
   transport::fill_young_films(foam.films, topology_, foam.liquid, grid_.h(), case_.transport);
+  times_.lap("young films");
 
   done.film_area = mesh::film_area(foam.films);
   done.kinetic_energy = flow::kinetic_energy(foam.gas, case_.materials.gas.density);
   done.correction = 2 * sigma * (done.film_area - area_carried);
+  times_.lap("measures");
   return done;
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "spume/base/stage_times.hpp"
 #include "spume/flow/navier_stokes.hpp"
 #include "spume/flow/surface_tension.hpp"
 #include "spume/grid/kernel_coupling.hpp"
@@ -39,9 +40,13 @@ class FoamMotion {
   /// Of the present films.
   const mesh::Topology& topology() const { return topology_; }
 
+  /// Processor time of the stages of all steps; "gas" is the whole of gas_times().
+  const StageTimes& times() const { return times_; }
+  const StageTimes& gas_times() const { return gas_.times(); }
+  const StageTimes& reconstruction_times() const { return reconstruction_times_; }
+
  private:
   flow::StepLimit choose_step() const;
-  double largest_motion() const;
   double largest_normal_motion() const;
   double carry_films(double dt, std::vector<state::Event>& events);
   bool needs_reconstruction() const;
@@ -55,6 +60,7 @@ class FoamMotion {
   grid::VectorField force_, film_velocity_;
   mesh::Topology topology_;
   std::optional<ViimMotion> viim_;
+  StageTimes times_, reconstruction_times_;
 };
 
 }  // namespace spume::simulation
