@@ -55,6 +55,25 @@ void check_bubble_inside(const grid::Box& box, const simulation::BubbleShape& bu
   }
 }
 
+/// A resolved case states all keys; those of the other structure may not differ from their defaults.
+void check_lattice_keys(const simulation::LatticeShape& lattice, const Entries& entries, Problems& problems) {
+  const simulation::LatticeShape standard;
+  const bool random = lattice.structure == simulation::LatticeShape::Structure::Random;
+  const auto refuse = [&](const char* key, bool differs, const char* owner) {
+    if (differs)
+      problems.add(
+          entries.place_of(fmt::format("foam.lattice.{}", key)),
+          fmt::format("'foam.lattice.{}' has no effect here: it belongs to structure = {}", key, owner));
+  };
+  if (random) {
+    refuse("cells", lattice.cells != standard.cells, "\"kelvin\" or \"weaire-phelan\"");
+    return;
+  }
+  refuse("count", lattice.count != standard.count, "\"random\"");
+  refuse("spread", lattice.spread != standard.spread, "\"random\"");
+  refuse("seed", lattice.seed != standard.seed, "\"random\"");
+}
+
 void check_lattice(const Case& run_case, const Entries& entries, Problems& problems) {
   using Structure = simulation::LatticeShape::Structure;
   const simulation::LatticeShape& lattice = *run_case.foam.lattice;
@@ -63,6 +82,7 @@ void check_lattice(const Case& run_case, const Entries& entries, Problems& probl
   if (!box.is_periodic())
     problems.add(entries.place_of("domain.boundary"),
                  "[foam.lattice] needs a box that is periodic in all three directions");
+  check_lattice_keys(lattice, entries, problems);
   if (lattice.structure != Structure::Random) {
     const Vec3 cells = simulation::crystal_cells(lattice, box);
     for (int axis = 0; axis < 3; ++axis)

@@ -174,7 +174,7 @@ Keys labels_and_membrane_keys() {
       {"foam.labels.placement",
        choice<Case, LabelsSource::Placement>(
            {"box", "file"}, [](Case& c) -> LabelsSource::Placement& { return labels(c).placement; }),
-       "", "", "box: stretched over the box; file: origin and spacing of the file are metres"},
+       "", "", "box: stretched over the box in proportion; file: origin and spacing of the file are metres"},
       {"foam.membrane.point", Vector<Case>{[](Case& c) -> Vec3& { return membrane(c).point; }}, "m", "",
        "a point of the film"},
       {"foam.membrane.normal", Vector<Case>{[](Case& c) -> Vec3& { return membrane(c).normal; }}, "", "",
@@ -246,7 +246,7 @@ Keys rupture_keys() {
        "", "", "what becomes of the liquid of a torn lamella"},
       {"rupture.protect",
        PhasePairs<Case>{[](Case& c) -> std::vector<std::array<int, 2>>& { return c.rupture.protect; }}, "",
-       "", "pairs of phases whose films never rupture"},
+       "", "pairs of phases whose films never rupture; a bubble merged of two has the lower number"},
       {"rupture.corner_radius",
        Number<Case>{[](Case& c) -> double& { return c.rupture.corner_radius; }, non_negative()}, "m", "",
        "with criterion film: how near to a junction border points do not count"},

@@ -14,7 +14,7 @@ namespace spume::io {
 
 namespace {
 
-constexpr int format_version = 1;
+constexpr int format_version = 2;
 constexpr const char* state_file = "state.h5";
 constexpr std::array velocity_names{"gas/velocity_x", "gas/velocity_y", "gas/velocity_z"};
 constexpr const char* pressure_name = "gas/pressure";
@@ -69,6 +69,7 @@ void write_films_and_liquid(const Hdf5File& file, const state::Foam& foam) {
   file.write("films/position", flat(position), {position.size(), 3});
   file.write("films/triangle", flat(triangle), {triangle.size(), 5});
   write_list(file, "phases/target_volume", foam.phases.target_volume);
+  write_number(file, "phases/above_membrane", foam.phases.above_membrane);
   const state::FilmLiquid& liquid = foam.liquid;
   write_list(file, "liquid/lamella_volume", liquid.lamella_volume);
   write_list(file, "liquid/border_volume", liquid.border_volume);
@@ -144,7 +145,7 @@ void check_fits(const Hdf5File& file, const grid::Box& box) {
 /// All that is in the file, as flat arrays; `numbers` first and in this order, so that one loop sends it to
 /// all ranks.
 struct Contents {
-  std::vector<double> scalars;  ///< time, sprayed
+  std::vector<double> scalars;  ///< time, sprayed, phase above the membrane
   std::vector<double> position, target_volume, lamella_volume, border_volume, area_at_transfer;
   std::vector<double> triangle, is_young;  ///< integers; doubles hold them exactly
   WholeGas gas;
@@ -175,7 +176,8 @@ Contents read_state(const std::filesystem::path& path, const grid::Box& box) {
   const Hdf5File file = Hdf5File::open(path);
   check_fits(file, box);
   Contents contents;
-  contents.scalars = {file.read("time").at(0), file.read("liquid/sprayed").at(0)};
+  contents.scalars = {file.read("time").at(0), file.read("liquid/sprayed").at(0),
+                      file.read("phases/above_membrane").at(0)};
   contents.position = file.read("films/position");
   contents.triangle = file.read("films/triangle");
   contents.target_volume = file.read("phases/target_volume");
@@ -204,6 +206,7 @@ void unpack_foam(const Contents& contents, state::Foam& foam) {
   foam.films.position = points_of(contents.position);
   foam.films.triangle = triangles_of({contents.triangle.begin(), contents.triangle.end()});
   foam.phases.target_volume = contents.target_volume;
+  foam.phases.above_membrane = static_cast<mesh::Phase>(contents.scalars.at(2));
   foam.liquid.sprayed = contents.scalars.at(1);
   foam.liquid.lamella_volume = contents.lamella_volume;
   foam.liquid.border_volume = contents.border_volume;

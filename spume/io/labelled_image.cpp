@@ -54,18 +54,24 @@ vtkSmartPointer<vtkImageData> read_with(const std::filesystem::path& path, Error
 void check_length(const std::filesystem::path& path, vtkImageData& data) {
   std::ifstream stream(path, std::ios::binary);
   std::string line;
-  bool compressed = false, local = false;
+  bool compressed = false;
+  std::string data_file;
   while (std::getline(stream, line)) {
     const bool is_true = line.find("True") != std::string::npos;
     if (line.rfind("CompressedData ", 0) == 0) compressed = is_true;
     if (line.rfind("ElementDataFile", 0) != 0) continue;
-    local = line.find("LOCAL") != std::string::npos;
+    const auto begin = line.find_first_not_of(" =", std::string("ElementDataFile").size());
+    const auto end = line.find_last_not_of(" \r");
+    if (begin <= end) data_file = line.substr(begin, end - begin + 1);
     break;  // the last line before the data
   }
-  if (!local || compressed) return;
-  const auto held = static_cast<std::int64_t>(std::filesystem::file_size(path)) - stream.tellg();
+  const bool in_one_file = data_file.find('%') == std::string::npos && data_file.rfind("LIST", 0) != 0;
+  if (compressed || !in_one_file) return;
+  const std::filesystem::path held_in = data_file == "LOCAL" ? path : path.parent_path() / data_file;
+  const std::int64_t header = data_file == "LOCAL" ? static_cast<std::int64_t>(stream.tellg()) : 0;
+  const auto held = static_cast<std::int64_t>(std::filesystem::file_size(held_in)) - header;
   if (held < data.GetNumberOfPoints() * data.GetScalarSize())
-    throw InputError(fmt::format("{}: damaged: it is cut short", path.string()));
+    throw InputError(fmt::format("{}: damaged: {} is cut short", path.string(), held_in.string()));
 }
 
 vtkSmartPointer<vtkImageData> read_by_ending(const std::filesystem::path& path, ErrorCounter& errors) {

@@ -25,7 +25,7 @@ void expect_sizes(const mesh::Topology& topology, const state::FilmLiquid& liqui
 std::vector<char> torn_lamellae(const mesh::Topology& topology, mesh::Phase kept, mesh::Phase gone) {
   std::vector<char> is_torn;
   for (const auto& lamella : topology.lamella)
-    is_torn.push_back(lamella.phase_a == kept && lamella.phase_b == gone);
+    is_torn.push_back(lamella.phase_a == std::min(kept, gone) && lamella.phase_b == std::max(kept, gone));
   return is_torn;
 }
 
@@ -97,6 +97,14 @@ void merge_targets(state::Phases& phases, mesh::Phase kept, mesh::Phase gone) {
   expects(gone < phases.count(), "both phases are known");
   if (kept != 0) phases.target_volume[kept] += phases.target_volume[gone];
   phases.target_volume[gone] = 0;
+  if (gone == phases.above_membrane) phases.above_membrane = 0;
+}
+
+/// What opens to a part of the outside becomes that part; of two bubbles the lower number stays.
+std::pair<mesh::Phase, mesh::Phase> kept_and_gone(mesh::Phase a, mesh::Phase b, const state::Phases& phases) {
+  const auto [low, high] = std::minmax(a, b);
+  if (low != 0 && high == phases.above_membrane) return {high, low};
+  return {low, high};
 }
 
 }  // namespace
@@ -104,7 +112,7 @@ void merge_targets(state::Phases& phases, mesh::Phase kept, mesh::Phase gone) {
 RuptureReport rupture(mesh::Phase a, mesh::Phase b, mesh::FilmMesh& films, state::FilmLiquid& liquid,
                       state::Phases& phases, Fate fate, double injection_radius) {
   expects(a != b && a >= 0 && b >= 0 && injection_radius > 0, "a film between two phases ruptures");
-  const mesh::Phase kept = std::min(a, b), gone = std::max(a, b);  // the outside is 0
+  const auto [kept, gone] = kept_and_gone(a, b, phases);
   const mesh::Topology topology = mesh::build_topology(films);
   expect_sizes(topology, liquid);
   const std::vector<char> is_torn = torn_lamellae(topology, kept, gone);

@@ -9,7 +9,8 @@
 namespace spume::rupture {
 
 struct RuptureReport {
-  mesh::Phase kept, gone;  ///< phase `gone` became part of `kept` (the outside, or the lower id)
+  mesh::Phase kept, gone;  ///< phase `gone` became part of `kept` (the outside, above a membrane too, or the
+                           ///< lower id)
   int n_lamellae;          ///< all between the two phases go together
   double area;             ///< of them [m²]
   double liquid;           ///< that they held [m³]

@@ -38,7 +38,8 @@ struct ClusterShape {
 struct LabelsSource {
   std::string file;
   enum class Placement {
-    Box,   ///< the image is stretched over the box; what its file says of size and place is not used
+    Box,   ///< the image is stretched over the box, whose proportions it must have; its file's place and
+           ///< unit of length are not used
     File,  ///< origin and spacing of the file are metres
   } placement = Placement::Box;
 };

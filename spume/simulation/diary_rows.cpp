@@ -14,13 +14,15 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Largest |V − V_target| / V_target of a bubble.
+/// Largest |V − V_target| / V_target of a bubble; not a number where a volume is not.
 double max_volume_error(const state::Foam& foam) {
   const auto volume = mesh::phase_volumes(foam.films, foam.phases.count());
   double largest = 0;
-  for (int p = 1; p < foam.phases.count(); ++p)
-    if (foam.phases.alive(p))
-      largest = std::max(largest, std::abs(volume[p] / foam.phases.target_volume[p] - 1));
+  for (mesh::Phase p = 1; p < foam.phases.count(); ++p) {
+    if (!foam.phases.is_bubble(p)) continue;
+    const double error = std::abs(volume[p] / foam.phases.target_volume[p] - 1);
+    if (!(error <= largest)) largest = error;
+  }
   return largest;
 }
 
@@ -128,7 +130,7 @@ std::vector<Row> bubble_rows(const state::Foam& foam, const mesh::Topology& topo
   }
   std::vector<Row> rows;
   for (int p = 1; p < n_phases; ++p) {
-    if (!foam.phases.alive(p)) continue;
+    if (!foam.phases.is_bubble(p)) continue;
     const auto& [x, extent] = shapes[p];
     rows.push_back({foam.time, p, volume[p], foam.phases.target_volume[p], area[p], pressure.at(p), x.x, x.y,
                     x.z, extent.x, extent.y, extent.z, faces[p]});

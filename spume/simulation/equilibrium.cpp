@@ -11,7 +11,8 @@ namespace spume::simulation {
 
 double mean_bubble_radius(const state::Phases& phases) {
   double volume = 0;
-  for (int p = 1; p < phases.count(); ++p) volume += phases.target_volume[p];
+  for (mesh::Phase p = 1; p < phases.count(); ++p)
+    if (phases.is_bubble(p)) volume += phases.target_volume[p];
   return std::cbrt(volume / std::max(1, phases.n_bubbles()) * 3 / (4 * std::numbers::pi));
 }
 

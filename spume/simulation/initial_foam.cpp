@@ -49,6 +49,7 @@ mesh::FilmMesh films_of(const Case& run_case, const grid::Grid& grid, state::Pha
                         std::vector<state::Event>& events) {
   Start start = start_of(run_case);
   phases.target_volume = std::move(start.target_volume);
+  phases.above_membrane = start.above_membrane;
   auto construction = interface::construct(grid, start.potential, phases, run_case.reconstruct);
   report(construction.report, events);
   if (run_case.foam.lattice) check_images_apart(construction.films, phases.count());

@@ -28,10 +28,27 @@ void for_each_voxel(const Index3& voxels, Body&& body) {
       for (int i = 0; i < voxels.i; ++i) body(n++, i, j, k);
 }
 
+/// The image keeps its proportions.
+void stretch_over(const grid::Box& box, const std::string& file, io::LabelledImage& image) {
+  constexpr double largest_distortion = 0.01;
+  Vec3 factor;
+  for (int d = 0; d < 3; ++d) factor[d] = box.size()[d] / (image.voxels[d] * image.spacing[d]);
+  const auto [least, most] = std::minmax({factor.x, factor.y, factor.z});
+  if (most > (1 + largest_distortion) * least)
+    throw InputError(fmt::format(
+        "{}: the image has sides in the ratio {:.4g} : {:.4g} : {:.4g}, the box {:.4g} : {:.4g} : {:.4g}: it "
+        "would be stretched more along one axis than along another; give [domain] the proportions of the "
+        "image, or the file the spacing of its voxels",
+        file, 1.0, image.voxels.j * image.spacing.y / (image.voxels.i * image.spacing.x),
+        image.voxels.k * image.spacing.z / (image.voxels.i * image.spacing.x), 1.0,
+        box.size().y / box.size().x, box.size().z / box.size().x));
+  image.lower = box.lower;
+  for (int d = 0; d < 3; ++d) image.spacing[d] *= factor[d];
+}
+
 void place_in_box(const LabelsSource& source, const grid::Box& box, io::LabelledImage& image) {
   if (source.placement == LabelsSource::Placement::Box) {
-    image.lower = box.lower;
-    for (int d = 0; d < 3; ++d) image.spacing[d] = box.size()[d] / image.voxels[d];
+    stretch_over(box, source.file, image);
     return;
   }
   for (int d = 0; d < 3; ++d) {

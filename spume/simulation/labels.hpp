@@ -11,7 +11,8 @@
 namespace spume::simulation {
 
 /// The image with its place in the box: lower corner and spacing in metres. Throws InputError when it cannot
-/// be read, when the grid has too few cells for so many bubbles, and when a placed image is not in the box.
+/// be read, when the grid has too few cells for so many bubbles, when an image to be stretched has other
+/// proportions than the box by more than 1 %, and when a placed image is not in the box.
 io::LabelledImage load_labels(const LabelsSource& source, const grid::Box& box);
 
 /// Volume of every phase in the image [m³], the outside first; of what lies beyond the image nothing counts.

@@ -63,7 +63,7 @@ Start power_cells(const Case& run_case, std::vector<BubbleShape> bubbles) {
 Start lattice_cells(const LatticeShape& lattice, const grid::Box& box) {
   std::vector<LatticeBubble> bubbles = make_lattice(lattice, box);
   const double spacing = lattice_spacing(lattice, box), nowhere = -1e3 * norm(box.size());
-  Start start{{0.0}, {}};
+  Start start{.target_volume = {0.0}, .potential = {}};
   for (const auto& bubble : bubbles) start.target_volume.push_back(bubble.volume);
   start.potential = [bubbles = std::move(bubbles), domain = box.domain(), spacing, nowhere](mesh::Phase phase,
                                                                                             const Vec3& x) {
@@ -75,13 +75,14 @@ Start lattice_cells(const LatticeShape& lattice, const grid::Box& box) {
 /// The phases of a labelled image.
 Start labelled_phases(const LabelsSource& source, const grid::Box& box) {
   const io::LabelledImage image = load_labels(source, box);
-  return {label_volumes(image), LabelPotentials(image, box)};
+  return {.target_volume = label_volumes(image), .potential = LabelPotentials(image, box)};
 }
 
 /// Splits the outside of a start by a film; the part above becomes the last phase.
 Start split_outside(Start start, const MembraneShape& membrane) {
   const auto above = static_cast<mesh::Phase>(start.target_volume.size());
   start.target_volume.push_back(0.0);
+  start.above_membrane = above;
   const Vec3 normal = normalized(membrane.normal);
   // Each half of the outside falls by twice the depth in the other half, so that half their difference is the
   // distance to the film.

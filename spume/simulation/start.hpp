@@ -12,6 +12,7 @@ namespace spume::simulation {
 struct Start {
   std::vector<double> target_volume;  ///< of each phase, the outside first [m³]; 0: as the films enclose it
   std::function<double(mesh::Phase, const Vec3&)> potential;  ///< as interface::construct() wants it [m]
+  mesh::Phase above_membrane = 0;                             ///< the outside above a membrane; 0 without one
 };
 
 /// The start that the case asks for. Deterministic. Throws as bubbles_of().

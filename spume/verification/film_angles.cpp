@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -24,7 +25,9 @@ struct Deviations {
     largest = std::max(largest, std::abs(deviation));
     ++count;
   }
-  double rms() const { return count > 0 ? std::sqrt(squares / count) : 0; }
+  /// Not numbers where nothing was measured, so that no band is met by it.
+  double rms() const { return std::sqrt(squares / count); }
+  double worst() const { return count > 0 ? largest : std::numeric_limits<double>::quiet_NaN(); }
 };
 
 double angle_between(const Vec3& a, const Vec3& b) {
@@ -138,9 +141,9 @@ PlateauAngles plateau_angles(const mesh::FilmMesh& films, const mesh::Topology& 
   add_film_angles(films, topology, reach, edge, film);
   add_border_angles(films, topology, 1.5 * reach, border);
   return {.film_rms = film.rms(),
-          .film_largest = film.largest,
+          .film_largest = film.worst(),
           .border_rms = border.rms(),
-          .border_largest = border.largest,
+          .border_largest = border.worst(),
           .n_film_angles = film.count,
           .n_border_angles = border.count};
 }

@@ -17,7 +17,7 @@ struct PlateauAngles {
 /// Measures all angles by fits: at each border vertex a quadric through the vertices of each film within
 /// `reach` [m] that lie on no border, free to miss the point; at each junction a parabola from it along each
 /// border's vertices within 1.5 `reach`. Border vertices within 1.5 `edge` [m] of a junction are passed over,
-/// and films or borders with too few vertices for a fit.
+/// and films or borders with too few vertices for a fit. Deviations of which there are none are not numbers.
 PlateauAngles plateau_angles(const mesh::FilmMesh& films, const mesh::Topology& topology, double reach,
                              double edge);
 

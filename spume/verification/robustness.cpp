@@ -21,7 +21,7 @@ struct Cascade {
 
 /// What went wrong, or right, on the way to one bubble.
 struct Outcome {
-  int merges = 0, bubbles_left = 0, reconstructions = 0;
+  int merges = 0, bubbles_at_start = 0, bubbles_left = 0, reconstructions = 0;
   int n_nonconforming = 0;  ///< edges, summed over the meshes after every step
   double energy_rise =
       0;  ///< largest of film and kinetic energy in a step without a topological change, over 2σA
@@ -57,6 +57,7 @@ Outcome run_cascade(const parallel::Communicator& communicator, const Cascade& c
   Outcome outcome;
   try {
     FoamRun run(communicator, run_case);
+    outcome.bubbles_at_start = run.foam().phases.n_bubbles();
     double energy = units.tension * mesh::film_area(run.foam().films);
     const double scale = energy;
     for (int round = 1; run.foam().phases.n_bubbles() > 1; ++round) {
@@ -105,6 +106,10 @@ void judge(const Cascade& cascade, const Outcome& outcome, Report& report) {
                   what, outcome.merges, outcome.reconstructions, outcome.n_split, outcome.n_absorbed,
                   outcome.n_lost, outcome.n_pocket));
   report.absolute("bubbles left", outcome.bubbles_left, 1, 0, "all films but one merge");
+  const double told =
+      outcome.bubbles_at_start - outcome.merges + outcome.n_split + outcome.n_pocket - outcome.n_lost;
+  report.absolute("bubbles left by the events", told, outcome.bubbles_left, 0,
+                  "every birth and death is told");
   report.at_most("non-conforming edges", outcome.n_nonconforming, 0, "conforming by construction");
   report.at_most("stray pieces absorbed", static_cast<double>(outcome.n_absorbed), 0,
                  "a bubble is one piece");

@@ -91,9 +91,9 @@ elliptic = "multigrid"
 std::vector<simulation::Case> other_starts() {
   const std::string sides = "[domain]\nlower = [0, 0, 0]\nupper = [1, 1, 1]\ncells = [48, 48, 48]\n";
   return {
-      parse_case(
-          sides + "[foam.lattice]\nstructure = \"random\"\ncells = 3\ncount = 30\nspread = 0.1\nseed = 7\n",
-          "lattice.toml"),
+      parse_case(sides + "[foam.lattice]\nstructure = \"random\"\ncount = 30\nspread = 0.1\nseed = 7\n",
+                 "random.toml"),
+      parse_case(sides + "[foam.lattice]\nstructure = \"kelvin\"\ncells = 3\n", "crystal.toml"),
       parse_case(sides + "[foam.labels]\nfile = \"/foam.mha\"\nplacement = \"file\"\n", "labels.toml"),
       parse_case(
           sides + "boundary = [\"slip\", \"periodic\", \"periodic\"]\n[foam.membrane]\npoint = [0.5, 0, 0]\n"

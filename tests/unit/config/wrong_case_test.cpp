@@ -154,6 +154,10 @@ TEST(WrongCase, lattice_needs_a_periodic_box_that_it_fits) {
               HasSubstr("the crystal does not fit the box: 2.25 cubic cells along z"));
   EXPECT_THAT(report(kelvin, {"foam.lattice.cells=9"}),
               HasSubstr("1458 bubbles are too many for this grid: each fills a cube of 2.8 cells edge"));
+  EXPECT_THAT(report(kelvin, {"foam.lattice.count=12"}),
+              HasSubstr("'foam.lattice.count' has no effect here: it belongs to structure = \"random\""));
+  EXPECT_THAT(report(kelvin, {"foam.lattice.structure=random", "foam.lattice.cells=3"}),
+              HasSubstr("'foam.lattice.cells' has no effect here"));
   EXPECT_THAT(report(kelvin + sample_bubble), HasSubstr("wrong.toml:5:2: [foam.lattice] fills the box"));
   EXPECT_THAT(report(kelvin, {"foam.remove_lamella=[[1, 17]]"}),
               HasSubstr("the phases are 0 (outside) to 16"));

@@ -91,6 +91,10 @@ TEST(LabelledImage, SaysWhatIsWrong) {
   EXPECT_THAT(complaint(path), HasSubstr("damaged"));
   write(path, mha_header("MET_UCHAR") + "cut");
   EXPECT_THAT(complaint(path), HasSubstr("damaged"));
+  write(folder.path() / "a.mhd",
+        "ObjectType = Image\nNDims = 3\nDimSize = 4 2 2\nElementType = MET_UCHAR\nElementDataFile = a.raw\n");
+  write(folder.path() / "a.raw", "cut");
+  EXPECT_THAT(complaint(folder.path() / "a.mhd"), HasSubstr("a.raw is cut short"));
   write(path, mha_header("MET_FLOAT") + std::string(64, '\0'));
   EXPECT_THAT(complaint(path), HasSubstr("labels are whole numbers"));
   write(path, mha_header("MET_UCHAR") + std::string(16, '\0'));

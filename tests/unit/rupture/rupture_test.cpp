@@ -156,6 +156,24 @@ TEST(Rupture, OfAnOuterFilmOpensTheBubbleToTheOutside) {
   EXPECT_LE(relative_change(before, foam.liquid.total()), 1e-14);
 }
 
+TEST(Rupture, OfABubbleIntoThePartAboveAMembraneMakesItThatPart) {
+  // Of the double bubble, 2 plays the part above.
+  Foam foam(shapes::double_bubble(radius, 6), 2);
+  foam.phases.above_membrane = 2;
+  EXPECT_EQ(foam.phases.n_bubbles(), 1);
+  const double before = foam.liquid.total(), volume = foam.phases.target_volume[1];
+  const rupture::RuptureReport report = foam.tear(1, 2);
+  EXPECT_EQ(report.kept, 2);
+  EXPECT_EQ(report.gone, 1);
+  EXPECT_EQ(foam.phases.n_bubbles(), 0);
+  EXPECT_EQ(foam.phases.above_membrane, 2);
+  EXPECT_LT(relative_change(2 * volume, foam.phases.target_volume[2]), 1e-12);
+  EXPECT_LT(relative_change(2 * volume, mesh::phase_volumes(foam.films, 3)[2]), 1e-12);
+  EXPECT_LE(relative_change(before, foam.liquid.total()), 1e-14);
+  foam.tear(0, 2);
+  EXPECT_EQ(foam.phases.above_membrane, 0) << "the outside is one again";
+}
+
 TEST(Rupture, OfTheLastBubbleLeavesNothingAndBooksItsLiquid) {
   Foam foam(shapes::sphere({}, radius, 2, 1), 1);
   const double before = foam.liquid.total();

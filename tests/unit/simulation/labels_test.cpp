@@ -60,6 +60,11 @@ TEST(LoadLabels, PlacesTheImage) {
   EXPECT_NEAR(label_volumes(stretched)[1], 6 * 8e-9, 1e-20);
   EXPECT_EQ(label_at(stretched, {3e-3, 3e-3, 3e-3}), 2);
 
+  grid::Box flat = box;
+  flat.upper.z = 2e-3;
+  flat.cells.k /= 2;
+  EXPECT_THROW(load_labels(source, flat), InputError) << "its voxels would not stay cubes";
+
   source.placement = LabelsSource::Placement::File;
   const auto placed = load_labels(source, box);
   EXPECT_NEAR(placed.lower.x, 0.5e-3, 1e-15) << "the offset is the middle of the first voxel";
