@@ -87,4 +87,11 @@ int project_vertices(const parallel::Communicator& ranks, const PhasePotentials&
   return static_cast<int>(ranks.sum(n_refused));
 }
 
+void project_junctions(const PhasePotentials& potentials, const mesh::Topology& topology,
+                       mesh::FilmMesh& films) {
+  for (int v : topology.junction)
+    films.position[v] =
+        potentials.project(films.position[v], topology.vertex_phases[v]).value_or(films.position[v]);
+}
+
 }  // namespace spume::interface

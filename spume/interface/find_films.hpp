@@ -27,4 +27,8 @@ FoundFilms find_films(PhasePotentials& potentials, state::Phases& phases, double
 int project_vertices(const parallel::Communicator& ranks, const PhasePotentials& potentials,
                      const mesh::Topology& topology, mesh::FilmMesh& films);
 
+/// The same for junctions alone, on every rank.
+void project_junctions(const PhasePotentials& potentials, const mesh::Topology& topology,
+                       mesh::FilmMesh& films);
+
 }  // namespace spume::interface

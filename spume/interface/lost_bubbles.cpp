@@ -1,6 +1,7 @@
 #include "spume/interface/lost_bubbles.hpp"
 
 #include <utility>
+#include <vector>
 
 #include "spume/mesh/measure.hpp"
 
@@ -41,11 +42,12 @@ void remove_bubble(mesh::FilmMesh& films, state::Phases& phases, mesh::Phase bub
 
 void remove_small_bubbles(mesh::FilmMesh& films, state::Phases& phases, double smallest_volume,
                           std::vector<PhaseChange>& changes) {
+  std::vector<double> measured = mesh::phase_volumes(films, phases.count());
   for (mesh::Phase p = 1; p < phases.count(); ++p) {
     if (!phases.alive(p)) continue;
-    const double measured = mesh::phase_volumes(films, phases.count())[p];
-    if (phases.target_volume[p] < smallest_volume || measured < smallest_volume)
-      remove_bubble(films, phases, p, changes);
+    if (phases.target_volume[p] >= smallest_volume && measured[p] >= smallest_volume) continue;
+    remove_bubble(films, phases, p, changes);
+    measured = mesh::phase_volumes(films, phases.count());  // with what the heir gained
   }
 }
 

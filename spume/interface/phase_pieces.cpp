@@ -254,6 +254,7 @@ bool separate_pieces(PhasePotentials& potentials, const Winners& winners, state:
 
 void settle_new_phases(const mesh::FilmMesh& films, state::Phases& phases, std::vector<PhaseChange>& changes,
                        std::size_t first) {
+  if (changes.size() == first) return;
   const std::vector<double> volume = mesh::phase_volumes(films, phases.count());
   // A piece that split off may itself have split in a later round: a family is all that came of one phase
   // that was there before, or of one pocket.

@@ -109,20 +109,17 @@ Reconstruction extract_films(const grid::Grid& grid, std::shared_ptr<PhasePotent
                              ReconstructReport report) {
   const double h = grid.h(), edge = parameters.smallest_bubble_cells * h,
                smallest_volume = edge * edge * edge;
-  constexpr int n_volume_rounds = 2;
-  FoundFilms found;
-  for (int round = 0;; ++round) {
-    found = find_films(*potentials, phases, smallest_volume, report.changes);
-    report.times.lap("contour");
-    report.n_refused_projections =
-        project_vertices(grid.communicator(), *potentials, found.topology, found.films);
-    report.times.lap("projection");
-    if (!parameters.conserve_volumes || round == n_volume_rounds) break;
-    raise_to_volumes(*potentials, found.films, phases, largest_volume_step * h);
-    report.times.lap("volumes");
-  }
-
+  FoundFilms found = find_films(*potentials, phases, smallest_volume, report.changes);
   mesh::FilmMesh& mesh = found.films;
+  report.times.lap("contour");
+  report.n_refused_projections = project_vertices(grid.communicator(), *potentials, found.topology, mesh);
+  report.times.lap("projection");
+  if (parameters.conserve_volumes) {
+    // The films move by some hundredths of h, and remeshing takes all other vertices along.
+    raise_to_volumes(*potentials, mesh, phases, largest_volume_step * h);
+    project_junctions(*potentials, found.topology, mesh);
+  }
+  report.times.lap("volumes");
   report.remesh = mesh::remesh(
       mesh, [edge_length = parameters.edge * h](const Vec3&) { return edge_length; },
       projection_onto(potentials), parameters.remesh);

@@ -8,6 +8,7 @@ namespace spume::mesh {
 namespace {
 
 constexpr int largest_number_of_passes = 6;
+constexpr int block_size = 4096;  // vertices with consecutive numbers, about what a cache holds
 constexpr double tiny_edge_reach =
     2.2;                              // × target: the longest edge that the collapse of a tiny one may make
 constexpr double least_cosine = 0.7;  // between a triangle and the film around it, after a collapse
@@ -49,15 +50,15 @@ class Collapser {
         normal_(work.mesh.n_vertices()),
         mark_(work.mesh.n_vertices(), 0) {
     for (int v = 0; v < mesh_.n_vertices(); ++v) kind_.push_back(work_.kind(v));
+    for (int t = 0; t < mesh_.n_triangles(); ++t)
+      for (int v : mesh_.triangle[t].vertex)
+        if (kind(v) == VertexKind::Film) normal_[v] += doubled_area_normal(mesh_, t);
+    for (Vec3& n : normal_) n = normalized(n);
   }
 
+  /// One pass over the edges that are too short at its start.
   int run() {
-    int n_collapsed = 0;
-    for (int pass = 0; pass < largest_number_of_passes; ++pass) {
-      const int n_this_pass = collapse_listed(begin_pass());
-      n_collapsed += n_this_pass;
-      if (n_this_pass == 0) break;
-    }
+    const int n_collapsed = collapse_listed(short_edges());
     if (n_collapsed > 0) work_.remove(dead_triangle_);
     return n_collapsed;
   }
@@ -77,8 +78,8 @@ class Collapser {
     std::erase_if(star_[v], [&](int t) { return dead_triangle_[t]; });
   }
 
-  /// Fresh stars and normals; the edges to collapse, shortest first, each once.
-  std::vector<EdgeLength> begin_pass();
+  /// Block by block of their lower vertices, which are near each other in memory; in each the shortest first.
+  std::vector<EdgeLength> short_edges() const;
   void fetch_ahead(const std::vector<EdgeLength>& edges, std::size_t n) const;
   int collapse_listed(const std::vector<EdgeLength>& edges);
   bool try_collapse(int v, int w);
@@ -97,39 +98,33 @@ class Collapser {
   std::vector<VertexKind> kind_;
   std::vector<std::vector<int>> star_;
   std::vector<char> dead_triangle_, dead_vertex_;
-  std::vector<Vec3> normal_;  // of film vertices, at the start of the pass
+  std::vector<Vec3> normal_;  // of film vertices, at the start
   std::vector<int> mark_;     // of vertices: scratch of keeps_topology
   int next_mark_ = 1;
 };
 
-std::vector<EdgeLength> Collapser::begin_pass() {
-  for (int v = 0; v < mesh_.n_vertices(); ++v) {
-    drop_dead_from_star(v);
-    normal_[v] = {};
-    if (kind(v) != VertexKind::Film) continue;
-    for (int t : star_[v]) normal_[v] += doubled_area_normal(mesh_, t);
-    normal_[v] = normalized(normal_[v]);
-  }
-  std::vector<EdgeLength> edges;
-  for (int t = 0; t < mesh_.n_triangles(); ++t) {
-    if (dead_triangle_[t]) continue;
+std::vector<EdgeLength> Collapser::short_edges() const {
+  std::vector<std::vector<EdgeLength>> of_block(mesh_.n_vertices() / block_size + 1);
+  for (const FilmTriangle& t : mesh_.triangle)
     for (int c = 0; c < 3; ++c) {
-      const int from = mesh_.triangle[t].vertex[c], to = mesh_.triangle[t].vertex[(c + 1) % 3];
+      const int from = t.vertex[c], to = t.vertex[(c + 1) % 3];
       // An edge inside a film runs forward in one triangle and backward in the other.
       if (to < from && (is_inner_film(from) || is_inner_film(to))) continue;
       const auto [low, high] = std::minmax(from, to);
       const double length_squared = norm_squared(mesh_.edge(low, high));
       const double limit = parameters_.collapse_below * edge_target(low, high);
       if (length_squared < limit * limit || hangs_in_three_triangles(low) || hangs_in_three_triangles(high))
-        edges.push_back({length_squared, low, high});
+        of_block[low / block_size].push_back({length_squared, low, high});
     }
+  std::vector<EdgeLength> edges;
+  for (auto& block : of_block) {
+    std::sort(block.begin(), block.end());
+    edges.insert(edges.end(), block.begin(), std::unique(block.begin(), block.end()));
   }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
 }
 
-/// Edges in the order of their lengths lie anywhere in memory; the processor is told early what comes.
+/// Edges in the order of their lengths lie anywhere in a block; the processor is told early what comes.
 void Collapser::fetch_ahead(const std::vector<EdgeLength>& edges, std::size_t n) const {
   constexpr std::size_t far = 12, near = 6, next = 3;
   if (n + far < edges.size())
@@ -175,9 +170,9 @@ bool Collapser::try_collapse(int v, int w) {
 }
 
 bool Collapser::is_allowed_by_kind(const Candidate& c, int n_shared) const {
-  if (kind(c.v) == VertexKind::Junction || work_.held[c.v] || !work_.phases[c.w].contains(work_.phases[c.v]))
-    return false;
-  return n_shared == (kind(c.v) == VertexKind::Border ? 3 : 2);
+  if (kind(c.v) == VertexKind::Junction || work_.held[c.v]) return false;
+  if (kind(c.v) == VertexKind::Film) return n_shared == 2;  // whose phases then meet at w, too
+  return n_shared == 3 && work_.phases[c.w].contains(work_.phases[c.v]);
 }
 
 /// The link condition: the neighbours that v and w share are the third corners of the triangles they share,
@@ -295,7 +290,13 @@ void Collapser::collapse(int v, int w) {
 }  // namespace
 
 int collapse_short_edges(WorkingMesh& work, const TargetLength& target, const RemeshParameters& parameters) {
-  return Collapser(work, target, parameters).run();
+  int n_collapsed = 0;
+  for (int pass = 0; pass < largest_number_of_passes; ++pass) {
+    const int n_this_pass = Collapser(work, target, parameters).run();
+    n_collapsed += n_this_pass;
+    if (n_this_pass == 0) break;
+  }
+  return n_collapsed;
 }
 
 }  // namespace spume::mesh

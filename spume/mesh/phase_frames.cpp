@@ -58,11 +58,46 @@ Vec3 highest(const std::array<Vec3, 3>& corner) {
 }  // namespace
 
 PhaseFrames::PhaseFrames(const FilmMesh& mesh, int n_phases) : domain_(mesh.domain), frame_(n_phases) {
+  as_stored_ = take_as_stored(mesh);
+  if (!as_stored_) take_images(mesh);
+}
+
+/// Most foams lie inside their box, also a periodic one. Then triangles are stored in one piece, and so is
+/// each phase, as long as a part of the box as wide as two bins is left free: no image is nearer to its
+/// middle.
+bool PhaseFrames::take_as_stored(const FilmMesh& mesh) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
+  frame_.assign(frame_.size(), Frame{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}});
+  Vec3 half{infinity, infinity, infinity}, widest = half;
+  for (int d = 0; d < 3; ++d)
+    if (domain_.periodic[d]) {
+      half[d] = 0.5 * domain_.size[d];
+      widest[d] = (1 - 2.0 / n_bins) * domain_.size[d];
+    }
+  const auto fits = [](const Vec3& extent, const Vec3& limit) {
+    return extent.x <= limit.x && extent.y <= limit.y && extent.z <= limit.z;
+  };
+  for (const FilmTriangle& t : mesh.triangle) {
+    const std::array<Vec3, 3> corner{mesh.position[t.vertex[0]], mesh.position[t.vertex[1]],
+                                     mesh.position[t.vertex[2]]};
+    const Vec3 low = lowest(corner), high = highest(corner);
+    if (!fits(high - low, half)) return false;
+    for (Phase p : {t.phase_a, t.phase_b}) {
+      frame_[p].lower = smaller(frame_[p].lower, low);
+      frame_[p].upper = larger(frame_[p].upper, high);
+    }
+  }
+  return std::all_of(frame_.begin(), frame_.end(),
+                     [&](const Frame& f) { return fits(f.upper - f.lower, widest); });
+}
+
+void PhaseFrames::take_images(const FilmMesh& mesh) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto n_phases = static_cast<Phase>(frame_.size());
+  frame_.assign(n_phases, Frame{});
   std::vector<Vec3> middle(n_phases);
-  const bool periodic = domain_.is_periodic();
-  std::vector<std::array<Occupancy, 3>> occupancy(periodic ? n_phases : 0);
-  for (int t = 0; periodic && t < mesh.n_triangles(); ++t) {
+  std::vector<std::array<Occupancy, 3>> occupancy(n_phases);
+  for (int t = 0; t < mesh.n_triangles(); ++t) {
     const auto corner = mesh.corners(t);
     const Vec3 low = lowest(corner) - domain_.lower, high = highest(corner) - domain_.lower;
     auto &a = occupancy[mesh.triangle[t].phase_a], &b = occupancy[mesh.triangle[t].phase_b];
@@ -91,7 +126,7 @@ PhaseFrames::PhaseFrames(const FilmMesh& mesh, int n_phases) : domain_(mesh.doma
     const Vec3 low = lowest(corner), high = highest(corner);
     for (Phase p : {mesh.triangle[t].phase_a, mesh.triangle[t].phase_b}) {
       Frame& f = frame_[p];
-      const Vec3 shift = periodic ? domain_.near(corner[0], middle[p]) - corner[0] : Vec3{};
+      const Vec3 shift = domain_.near(corner[0], middle[p]) - corner[0];
       f.lower = smaller(f.lower, low + shift);
       f.upper = larger(f.upper, high + shift);
     }
@@ -105,7 +140,7 @@ PhaseFrames::PhaseFrames(const FilmMesh& mesh, int n_phases) : domain_(mesh.doma
 }
 
 std::array<Vec3, 3> PhaseFrames::place(Phase p, const std::array<Vec3, 3>& corner) const {
-  if (!domain_.is_periodic()) return corner;
+  if (as_stored_) return corner;
   const Vec3 shift = domain_.near(corner[0], middle(p)) - corner[0];
   return {corner[0] + shift, corner[1] + shift, corner[2] + shift};
 }

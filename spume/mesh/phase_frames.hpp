@@ -32,6 +32,10 @@ class PhaseFrames {
   double volume(Phase p, double cones) const;
 
  private:
+  /// Finds the frames without images; false where some are needed.
+  bool take_as_stored(const FilmMesh& mesh);
+  void take_images(const FilmMesh& mesh);
+
   struct Frame {
     Vec3 lower, upper;
     std::array<bool, 3> bounded{true, true, true};
@@ -40,6 +44,7 @@ class PhaseFrames {
 
   Domain domain_;
   std::vector<Frame> frame_;
+  bool as_stored_ = false;  ///< no film goes over the edge of a periodic box
 };
 
 /// Whether the foam is a body with the outside around it: it has films to the outside, and these leave a part

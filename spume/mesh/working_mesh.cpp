@@ -12,7 +12,8 @@ EdgeTable build_edges(const FilmMesh& mesh) {
     int high;
     EdgeUse use;
   };
-  // Buckets by the lower vertex, in triangle order; then each small bucket is sorted by the higher vertex.
+  // Buckets by the lower vertex, in triangle order; then each, of a few sides, is sorted by the higher
+  // vertex.
   std::vector<int> offset(mesh.n_vertices() + 1, 0);
   for (const FilmTriangle& t : mesh.triangle)
     for (int c = 0; c < 3; ++c) ++offset[std::min(t.vertex[c], t.vertex[(c + 1) % 3]) + 1];
@@ -29,9 +30,12 @@ EdgeTable build_edges(const FilmMesh& mesh) {
   table.edge.reserve(side.size() / 2);
   table.use.reserve(side.size());
   for (int low = 0; low < mesh.n_vertices(); ++low) {
-    std::sort(side.begin() + offset[low], side.begin() + offset[low + 1], [](const Side& a, const Side& b) {
-      return a.high != b.high ? a.high < b.high : a.use.triangle < b.use.triangle;
-    });
+    for (int n = offset[low] + 1; n < offset[low + 1]; ++n) {
+      const Side moving = side[n];
+      int m = n;
+      for (; m > offset[low] && side[m - 1].high > moving.high; --m) side[m] = side[m - 1];
+      side[m] = moving;
+    }
     for (int s = offset[low]; s < offset[low + 1]; ++s) {
       if (s == offset[low] || side[s].high != side[s - 1].high)
         table.edge.push_back({low, side[s].high, s, 0});

@@ -164,11 +164,20 @@ TEST(Reconstruct, KeepsTheShapeOfAnEllipsoid) {
     for (int d = 0; d < 3; ++d) s += (x[d] - centre[d]) * (x[d] - centre[d]) / (axes[d] * axes[d]);
     return (p == 1 ? 1 : -1) * 4 * h * (1 - s);
   };
+  // From the second moments of the volume, the sums of those of tetrahedra; the farthest vertex would tell
+  // where vertices happen to lie.
   const auto elongation = [&](const mesh::FilmMesh& films) {
-    Vec3 reach;
-    for (const Vec3& x : films.position)
-      for (int d = 0; d < 3; ++d) reach[d] = std::max(reach[d], std::abs(x[d] - centre[d]));
-    return (reach.z - 0.5 * (reach.x + reach.y)) / h;
+    Vec3 moment;
+    for (int t = 0; t < films.n_triangles(); ++t) {
+      auto [a, b, c] = films.corners(t);
+      a -= centre;
+      b -= centre;
+      c -= centre;
+      const double volume = dot(a, cross(b, c));
+      for (int d = 0; d < 3; ++d)
+        moment[d] += volume * (a[d] * a[d] + b[d] * b[d] + c[d] * c[d] + std::pow(a[d] + b[d] + c[d], 2));
+    }
+    return moment.z / (0.5 * (moment.x + moment.y)) - 1;
   };
   auto result = construct(grid, ellipsoid, phases, {});
   const double before = elongation(result.films);
