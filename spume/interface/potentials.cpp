@@ -187,25 +187,22 @@ std::optional<Vec3> PhasePotentials::project_on_junction(const Vec3& start,
   return x;
 }
 
-PhasePotentials potentials_of(const grid::Box& box, const PhaseColours& colours,
+PhasePotentials potentials_of(const grid::Box& box, std::span<const CellBox> cells,
                               std::span<const std::vector<double>> indicator, double variance, double floor) {
   const FlatFilmMap map(variance, floor);
   const CellBox whole = all_cells(box.cells);
   PhasePotentials potentials(box);
   PhaseField outside{0, whole, map.distance(0), std::vector<double>(whole.size(), 1.0)};
-  for (const auto& colour : indicator)
-    for (std::size_t n = 0; n < colour.size(); ++n) outside.value[n] -= colour[n];
+  for (std::size_t p = 0; p < cells.size(); ++p)
+    for_each_cell_of_grid(cells[p], potentials.lattice(),
+                          [&](std::size_t n, std::size_t cell) { outside.value[cell] -= indicator[p][n]; });
   for (double& value : outside.value) value = map.distance(value);
   potentials.set(std::move(outside));
 
-  for (std::size_t p = 0; p < colours.colour.size(); ++p) {
-    if (colours.colour[p] < 0) continue;
-    PhaseField field{static_cast<mesh::Phase>(p), colours.cells[p], map.distance(0), {}};
-    field.value.reserve(field.cells.size());
-    const auto& c = indicator[colours.colour[p]];
-    for_each_cell_of_grid(field.cells, potentials.lattice(), [&](std::size_t, std::size_t cell) {
-      field.value.push_back(map.distance(c[cell]));
-    });
+  for (std::size_t p = 0; p < cells.size(); ++p) {
+    if (cells[p].empty()) continue;
+    PhaseField field{static_cast<mesh::Phase>(p), cells[p], map.distance(0), indicator[p]};
+    for (double& value : field.value) value = map.distance(value);
     potentials.set(std::move(field));
   }
   return potentials;

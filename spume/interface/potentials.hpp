@@ -73,8 +73,9 @@ class PhasePotentials {
 };
 
 /// Potentials from smoothed indicators by the profile of a flat film; ψ of the outside from 1 − Σ of all the
-/// others. `indicator` as of smoothed_indicators(); `variance` [m²] and `floor` as of FlatFilmMap.
-PhasePotentials potentials_of(const grid::Box& box, const PhaseColours& colours,
+/// others. `indicator` of each phase on its
+/// `cells` as of smoothed_indicators(); `variance` [m²] and `floor` as of FlatFilmMap.
+PhasePotentials potentials_of(const grid::Box& box, std::span<const CellBox> cells,
                               std::span<const std::vector<double>> indicator, double variance, double floor);
 
 /// At every cell: the phase with the largest ψ (the lowest of equals), and the two largest ψ [m]; where there

@@ -33,11 +33,11 @@ PhasePotentials potentials_from(const grid::Grid& grid, mesh::FilmMesh films, in
   const mesh::Topology topology = mesh::build_topology(films);
   step_in_advance(films, topology, variance / 10 + parameters.relaxation * h * h, h, n_phases);
   const auto midpoints = edge_midpoints(films, topology);
-  const PhaseColours colours = colour_phases(grid, films, n_phases);
-  const auto indicators = smoothed_indicators(grid, films, midpoints, colours, variance);
+  const PhaseBlocks blocks = blocks_of_phases(grid, films, n_phases);
+  const auto indicators = smoothed_indicators(grid, films, midpoints, blocks, variance);
   times.lap("indicators");
   PhasePotentials potentials =
-      potentials_of(grid.box(), colours, indicators, variance, parameters.profile_floor);
+      potentials_of(grid.box(), blocks.cells, indicators, variance, parameters.profile_floor);
   times.lap("potentials");
   return potentials;
 }
