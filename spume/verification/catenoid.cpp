@@ -24,22 +24,65 @@ double sech_squared(double v) {
   return 1 / (std::cosh(v) * std::cosh(v));
 }
 
-/// Half the boundary edges at each film dof, and the edges: those that one triangle has.
+/// The edges along v = ± 5/4.
 void find_boundary(Catenoid& mesh) {
-  const auto& films = mesh.network.mesh;
-  mesh.boundary_length.assign(mesh.parameter.size(), 0.0);
-  for (int t = 0; t < films.n_triangles(); ++t)
+  for (const auto& dof : mesh.network.topology.corner_dof)
     for (int c = 0; c < 3; ++c) {
-      const int d = mesh.network.topology.corner_dof[t][c],
-                e = mesh.network.topology.corner_dof[t][(c + 1) % 3];
-      if (mesh.parameter[d][1] != mesh.parameter[e][1] || std::abs(mesh.parameter[d][1]) != half_height)
-        continue;
-      mesh.boundary_edge.push_back({d, e});
-      const auto& v = films.triangle[t].vertex;
-      const double half = fem::lumped_segment_mass(norm(films.edge(v[c], v[(c + 1) % 3])));
-      mesh.boundary_length[d] += half;
-      mesh.boundary_length[e] += half;
+      const int d = dof[c], e = dof[(c + 1) % 3];
+      const double v = mesh.parameter[d][1];
+      if (v == mesh.parameter[e][1] && std::abs(v) == half_height) mesh.boundary_edge.push_back({d, e});
     }
+}
+
+/// Adds ∫ f φ of the source at time t to the balances, f piecewise linear or integrated to fifth order
+/// (Radon's seven points) over the flat triangles.
+void add_source(const Catenoid& mesh, double t, SourceRule rule, std::vector<double>& rate) {
+  constexpr double near = 0.47014206410511505, far = 0.10128650732345633;
+  constexpr double weight_near = 0.13239415278850619, weight_far = 0.12593918054482715;
+  static constexpr std::array<std::array<double, 4>, 7> points{{
+      {1. / 3, 1. / 3, 1. / 3, 0.225},
+      {1 - 2 * near, near, near, weight_near},
+      {near, 1 - 2 * near, near, weight_near},
+      {near, near, 1 - 2 * near, weight_near},
+      {1 - 2 * far, far, far, weight_far},
+      {far, 1 - 2 * far, far, weight_far},
+      {far, far, 1 - 2 * far, weight_far},
+  }};
+  for (int n = 0; n < mesh.network.mesh.n_triangles(); ++n) {
+    const double area = mesh::triangle_area(mesh.network.mesh, n);
+    const auto& dof = mesh.network.topology.corner_dof[n];
+    if (rule == SourceRule::Interpolated) {
+      const auto mass = fem::triangle_mass(area);
+      for (int j = 0; j < 3; ++j) {
+        const double f = catenoid_solution(mesh.parameter[dof[j]][0], mesh.parameter[dof[j]][1], t).source;
+        for (int i = 0; i < 3; ++i) rate[dof[i]] += mass[i][j] * f;
+      }
+      continue;
+    }
+    for (const auto& point : points) {
+      double u = 0, v = 0;
+      for (int i = 0; i < 3; ++i) {
+        const double turns = mesh.parameter[dof[i]][0] - mesh.parameter[dof[0]][0];
+        u += point[i] * (mesh.parameter[dof[0]][0] + std::remainder(turns, 2 * std::numbers::pi));
+        v += point[i] * mesh.parameter[dof[i]][1];
+      }
+      const double f = point[3] * area * catenoid_solution(u, v, t).source;
+      for (int i = 0; i < 3; ++i) rate[dof[i]] += point[i] * f;
+    }
+  }
+}
+
+/// Takes −∫ (Q·ν) φ over the boundary out of the balances, the flux piecewise linear.
+void subtract_flux(const Catenoid& mesh, double t, std::vector<double>& rate) {
+  const auto flux = [&](int d) {
+    return catenoid_solution(mesh.parameter[d][0], mesh.parameter[d][1], t).flux;
+  };
+  for (const auto& [d, e] : mesh.boundary_edge) {
+    const auto& dofs = mesh.network.topology.film_dof;
+    const auto mass = fem::segment_mass(norm(mesh.network.mesh.edge(dofs[d].vertex, dofs[e].vertex)));
+    rate[d] -= mass[0][0] * flux(d) + mass[0][1] * flux(e);
+    rate[e] -= mass[1][0] * flux(d) + mass[1][1] * flux(e);
+  }
 }
 
 /// ‖·‖₂ of a piecewise linear function.
@@ -154,32 +197,20 @@ LamellaRun published_lamella_run(const Catenoid& mesh, drainage::LamellaSurface 
   return [lamella, &mesh, driven](double t, double dt, std::vector<double>& eta) {
     std::vector<double> load(eta.size(), 0.0);
     if (driven) {
-      std::vector<double> source, flux;
-      for (const auto& [u, v] : mesh.parameter) {
-        const CatenoidSolution exact = catenoid_solution(u, v, t);
-        source.push_back(exact.source);
-        flux.push_back(exact.flux);
-      }
-      lamella->integrate(source, load);
-      for (const auto& [d, e] : mesh.boundary_edge) {
-        const auto& dofs = mesh.network.topology.film_dof;
-        const auto mass = fem::segment_mass(norm(mesh.network.mesh.edge(dofs[d].vertex, dofs[e].vertex)));
-        load[d] -= mass[0][0] * flux[d] + mass[0][1] * flux[e];
-        load[e] -= mass[1][0] * flux[d] + mass[1][1] * flux[e];
-      }
+      add_source(mesh, t, SourceRule::Interpolated, load);
+      subtract_flux(mesh, t, load);
     }
     if (!lamella->advance(dt, load, eta)) throw NumericalError("the published lamella scheme blew up");
   };
 }
 
-LamellaRun positive_lamella_run(const Catenoid& mesh, const state::Materials& materials, bool driven) {
+LamellaRun positive_lamella_run(const Catenoid& mesh, const state::Materials& materials,
+                                std::optional<SourceRule> driven) {
   const auto equations = std::make_shared<drainage::DrainageEquations>(mesh.network, materials);
   if (driven)
-    equations->force([&mesh, area = equations->film_area()](double t, drainage::Unknowns& rate) {
-      for (std::size_t d = 0; d < rate.film.size(); ++d) {
-        const CatenoidSolution exact = catenoid_solution(mesh.parameter[d][0], mesh.parameter[d][1], t);
-        rate.film[d] += area[d] * exact.source - mesh.boundary_length[d] * exact.flux;
-      }
+    equations->force([&mesh, rule = *driven](double t, drainage::Unknowns& rate) {
+      add_source(mesh, t, rule, rate.film);
+      subtract_flux(mesh, t, rate.film);
     });
   const auto stepper = std::make_shared<drainage::Stepper>(*equations);
   return [equations, stepper](double t, double dt, std::vector<double>& eta) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "spume/drainage/paper_lamella.hpp"
@@ -25,8 +26,6 @@ enum class CatenoidMesh {
 struct Catenoid {
   state::FilmNetwork network;
   std::vector<std::array<double, 2>> parameter;
-  /// For each film dof on the boundary half of the boundary edges there, 0 inside [m].
-  std::vector<double> boundary_length;
   /// The boundary edges, by film dofs.
   std::vector<std::array<int, 2>> boundary_edge;
 };
@@ -56,10 +55,14 @@ struct LamellaError {
 
 /// A way to advance η on a catenoid from t by dt.
 using LamellaRun = std::function<void(double t, double dt, std::vector<double>& eta)>;
+/// How a source enters the equations: as the paper has it, piecewise linear between its nodal values, or
+/// integrated to fifth order, which leaves the error of the scheme alone.
+enum class SourceRule { Interpolated, Integrated };
 /// Those of the published scheme and of the positive one, with the source and flux of Table 1 or without any.
 LamellaRun published_lamella_run(const Catenoid& mesh, drainage::LamellaSurface surface,
                                  const state::Materials& materials, bool driven);
-LamellaRun positive_lamella_run(const Catenoid& mesh, const state::Materials& materials, bool driven);
+LamellaRun positive_lamella_run(const Catenoid& mesh, const state::Materials& materials,
+                                std::optional<SourceRule> driven);
 
 /// Table 1: error over 0 ≤ t ≤ end.
 LamellaError lamella_error(const Catenoid& mesh, const LamellaRun& run, double end, int steps);
