@@ -227,6 +227,10 @@ Keys drainage_keys() {
       {"drainage.tolerance",
        Number<Case>{[](Case& c) -> double& { return c.drainage.tolerance; }, positive_up_to(0.5)}, "", "",
        "relative error of η and λ in one step"},
+      {"drainage.scheme",
+       choice<Case, drainage::Scheme>({"positive", "paper"},
+                                      [](Case& c) -> drainage::Scheme& { return c.drainage.scheme; }),
+       "", "", "second order and positive, or the paper's own steps, which the tables of the paper check"},
       {"drainage.max_step", Number<Case>{[](Case& c) -> double& { return c.drainage.max_step; }}, "s", "",
        "longest time step"},
   };
@@ -333,13 +337,6 @@ const std::vector<Key<BubbleEntry>>& bubble_keys() {
        "radius of a sphere"},
       {"foam.bubble.semi_axes", Vector<Entry>{[](Entry& b) -> Vec3& { return b.semi_axes; }, positive()}, "m",
        "", "semi-axes of an ellipsoid along x, y, z"},
-  };
-  return all;
-}
-
-const std::vector<LaterKey>& later_keys() {
-  static const std::vector<LaterKey> all{
-      {"drainage.scheme", "the choice of the drainage scheme"},
   };
   return all;
 }

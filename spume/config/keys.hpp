@@ -25,18 +25,11 @@ struct BubbleEntry {
   Vec3 semi_axes;     ///< [m], of an ellipsoid
 };
 
-/// A key or section that the project plans and this version does not have.
-struct LaterKey {
-  std::string name;
-  std::string meaning;
-};
-
 // The one table of keys: reading, checking, `spume describe` and the resolved case all come from it.
 const std::vector<Section>& sections();
 const std::vector<Key<simulation::Case>>&
 case_keys();  ///< all keys but those of [[foam.bubble]], in order of sections
 const std::vector<Key<BubbleEntry>>& bubble_keys();  ///< keys of each [[foam.bubble]]
-const std::vector<LaterKey>& later_keys();
 
 /// The name of the list of bubbles, an array of tables.
 inline const std::string bubble_list = "foam.bubble";

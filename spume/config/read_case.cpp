@@ -64,8 +64,6 @@ std::string unknown_key(const std::string& name) {
 
 /// What is wrong with an entry that is no key of the table.
 std::string not_a_key(const std::string& name, const toml::node& value) {
-  for (const auto& later : later_keys())
-    if (name == later.name) return "'" + name + "' (" + later.meaning + ") is not available in this version";
   for (const auto& section : sections())
     if (name == section.name) return "'" + name + "' is a section: write [" + name + "] and its keys below";
   return value.is_table() || value.is_array_of_tables() ? unknown_section(name) : unknown_key(name);

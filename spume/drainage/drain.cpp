@@ -11,6 +11,7 @@
 #include "spume/drainage/constants.hpp"
 #include "spume/drainage/crossing.hpp"
 #include "spume/drainage/equations.hpp"
+#include "spume/drainage/paper_drain.hpp"
 #include "spume/drainage/place.hpp"
 #include "spume/drainage/step.hpp"
 
@@ -215,6 +216,8 @@ DrainageOutcome drain(state::FilmNetwork& network, const state::Materials& mater
                       const DrainageParameters& parameters, double threshold, const ThinnestPoint& thinnest,
                       const OnStep& on_step) {
   check_input(network, materials, parameters);
+  if (parameters.scheme == Scheme::Paper)
+    return drain_as_published(network, materials, parameters, threshold, thinnest, on_step);
   Stage stage(network, materials, parameters, threshold, thinnest);
   while (!stage.ruptured() && !stage.over()) {
     stage.advance();

@@ -10,9 +10,15 @@
 
 namespace spume::drainage {
 
+enum class Scheme {
+  Positive,  ///< second order, adaptive, keeps η and λ positive (equations.hpp, step.hpp)
+  Paper,     ///< as published (paper_drain.hpp)
+};
+
 struct DrainageParameters {
+  Scheme scheme = Scheme::Positive;
   double max_time = 100;    ///< of one drainage stage [s]
-  double tolerance = 0.02;  ///< relative error of η and λ a step
+  double tolerance = 0.02;  ///< relative error of η and λ a step; the paper's scheme has a fixed step
   double max_step = 10;     ///< [s]
 };
 

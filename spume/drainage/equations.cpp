@@ -22,6 +22,11 @@ DrainageEquations::DrainageEquations(const state::FilmNetwork& network, const st
   build_border_pattern();
 }
 
+DrainageEquations::DrainageEquations(BorderNetwork borders, const state::Materials& materials)
+    : materials_(materials), borders_(std::move(borders)) {
+  build_border_pattern();
+}
+
 Unknowns DrainageEquations::read(const state::FilmNetwork& network) const {
   Unknowns y{network.half_thickness, {}};
   for (int v : borders_.vertex) y.border.push_back(network.border_area[v]);
@@ -60,6 +65,7 @@ void DrainageEquations::rates(const Unknowns& y, Unknowns& rate) {
   rate.border.assign(y.border.size(), 0.0);
   add_border_flow(borders_, y.border, materials_, rate.border);
   add_border_source(sites_, suction_.outflow, rate.border);
+  if (forcing_) forcing_(time_, rate);
 }
 
 void DrainageEquations::linearise(const Unknowns& y) {

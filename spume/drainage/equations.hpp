@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "spume/drainage/lamella.hpp"
@@ -18,6 +20,10 @@ struct Unknowns {
   std::vector<double> film, border;
 };
 
+/// Liquid that comes from elsewhere at a time [s]: adds to the balances of film dofs and border unknowns
+/// [m³/s], of one face of the films.
+using Forcing = std::function<void(double time, Unknowns& rate)>;
+
 /// The coupled drainage equations of a network, M y' = F(y), and their linearisation. M is the diagonal of
 /// lumped areas and lengths. The matrix J drops ∂Q/∂λ in films and borders alike, so that (2, 1)ᵀ J = 0 still
 /// holds: the ledger is kept to round-off, and each lamella has a matrix of its own, with λ lagged in it.
@@ -25,6 +31,14 @@ class DrainageEquations {
  public:
   /// Throws NumericalError, with the place, where a triangle, film dof or border edge has no size.
   DrainageEquations(const state::FilmNetwork& network, const state::Materials& materials);
+
+  /// Borders by themselves, without films.
+  DrainageEquations(BorderNetwork borders, const state::Materials& materials);
+
+  /// Adds a forcing to the rates, which J does not know. A step is second order with it if the time is that
+  /// of the state in Stepper::start() and that of the end of the step in Stepper::attempt().
+  void force(Forcing forcing) { forcing_ = std::move(forcing); }
+  void set_time(double time) { time_ = time; }
 
   /// η and λ of the network, in the order of Unknowns, and back.
   Unknowns read(const state::FilmNetwork& network) const;
@@ -71,6 +85,8 @@ class DrainageEquations {
   bool factorise_borders(double s);
 
   state::Materials materials_;
+  Forcing forcing_;
+  double time_ = 0;
   BorderNetwork borders_;
   std::vector<SuctionSite> sites_;
   std::vector<double> film_area_;

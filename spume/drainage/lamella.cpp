@@ -30,20 +30,6 @@ void fill_domain(const state::FilmNetwork& network, const Vec3& gravity,
   lamella.surface = fem::assemble_surface_laplacian(position, triangles, network.mesh.domain);
 }
 
-/// Neighbours of the neighbours of a node, itself included, increasing.
-std::vector<int> second_ring(const fem::SurfaceLaplacian& surface, int node) {
-  std::vector<int> ring{node};
-  for (int e = surface.offset[node]; e < surface.offset[node + 1]; ++e) {
-    const int next = surface.neighbour[e];
-    ring.push_back(next);
-    for (int f = surface.offset[next]; f < surface.offset[next + 1]; ++f)
-      ring.push_back(surface.neighbour[f]);
-  }
-  std::sort(ring.begin(), ring.end());
-  ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
-  return ring;
-}
-
 /// σ/3μ [m/s].
 double capillary_speed(const state::Materials& materials) {
   return materials.film.surface_tension / (3 * materials.liquid.viscosity);
@@ -111,7 +97,7 @@ LamellaJacobian::LamellaJacobian(const LamellaDomain& lamella) {
   const int n = lamella.size();
   column_offset_.push_back(0);
   for (int j = 0; j < n; ++j) {
-    const std::vector<int> ring = second_ring(lamella.surface, j);
+    const std::vector<int> ring = fem::second_ring(lamella.surface, j);
     const auto self = std::lower_bound(ring.begin(), ring.end(), j);
     diagonal_.push_back(column_offset_.back() + static_cast<int>(self - ring.begin()));
     row_.insert(row_.end(), ring.begin(), ring.end());

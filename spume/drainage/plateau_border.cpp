@@ -37,11 +37,15 @@ BorderFlux border_flux(double a, double b, const BorderLink& link, const state::
   const double mu = materials.liquid.viscosity;                      // μ [Pa s]
   const double rho = materials.liquid.density;                       // ρ [kg/m³]
   const double conductance = border_flow / (3 * mu * link.length);
-  const double mobility = a * a + a * b + b * b;
+  const double root = std::sqrt(a * b);
+  const double mobility = root * (a + root + b);        // 3 × that of the edge
+  const auto slope = [root](double at, double other) {  // of 3 × the mobility, by one end
+    return 0.5 * other * (at + other) / root + root + other;
+  };
   const double drive = 2 * c1 * (1 / std::sqrt(b) - 1 / std::sqrt(a)) + rho * link.descent;
   return {conductance * mobility * drive,
-          {conductance * ((2 * a + b) * drive + mobility * c1 / (a * std::sqrt(a))),
-           conductance * ((a + 2 * b) * drive - mobility * c1 / (b * std::sqrt(b)))}};
+          {conductance * (slope(a, b) * drive + mobility * c1 / (a * std::sqrt(a))),
+           conductance * (slope(b, a) * drive - mobility * c1 / (b * std::sqrt(b)))}};
 }
 
 void add_border_flow(const BorderNetwork& borders, std::span<const double> lambda,

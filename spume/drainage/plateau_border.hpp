@@ -42,8 +42,10 @@ struct BorderFlux {
 /// Flow along one border edge between cross-sections a = λ₀ and b = λ₁ [m²], driven by the pressure
 /// −2 C₁ λ^{−1/2} and by gravity. It is exactly zero where λ^{−1/2} is hydrostatic.
 /// Paper: Sec. 2.3.2, Eq. (5).
-///   F = (C_Δ/μ) (a² + ab + b²)/3 · [2 C₁ (b^{−1/2} − a^{−1/2}) + ρ g·(x₁ − x₀)]/h
-/// with C₁ = ½ σ (√3 − π/2)^{1/2}; it approximates (C_Δ/μ)(−C₁ λ^{1/2} ∂λ/∂ℓ + λ² ρ g_τ).
+///   F = (C_Δ/μ) √(ab) (a + √(ab) + b)/3 · [2 C₁ (b^{−1/2} − a^{−1/2}) + ρ g·(x₁ − x₀)]/h
+/// with C₁ = ½ σ (√3 − π/2)^{1/2}; it approximates (C_Δ/μ)(−C₁ λ^{1/2} ∂λ/∂ℓ + λ² ρ g_τ). The mean of λ² is
+/// the one with which the capillary part, −C₁ (2/3)(b^{3/2} − a^{3/2})/h, is the integral of λ^{1/2} ∂λ/∂ℓ
+/// exactly, however much λ varies along the edge; and it vanishes with either end.
 BorderFlux border_flux(double a, double b, const BorderLink& link, const state::Materials& materials);
 
 /// Adds to each unknown what flows in along its edges [m³/s].

@@ -72,4 +72,17 @@ SurfaceLaplacian assemble_surface_laplacian(std::span<const Vec3> position,
   return surface;
 }
 
+std::vector<int> second_ring(const SurfaceLaplacian& surface, int node) {
+  std::vector<int> ring{node};
+  for (int e = surface.offset[node]; e < surface.offset[node + 1]; ++e) {
+    const int next = surface.neighbour[e];
+    ring.push_back(next);
+    for (int f = surface.offset[next]; f < surface.offset[next + 1]; ++f)
+      ring.push_back(surface.neighbour[f]);
+  }
+  std::sort(ring.begin(), ring.end());
+  ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+  return ring;
+}
+
 }  // namespace spume::fem

@@ -30,4 +30,7 @@ SurfaceLaplacian assemble_surface_laplacian(std::span<const Vec3> position,
                                             std::span<const std::array<int, 3>> triangle,
                                             const Domain& domain = {});
 
+/// Neighbours of the neighbours of a node, itself included, increasing: the rows of its column in K m⁻¹ K.
+std::vector<int> second_ring(const SurfaceLaplacian& surface, int node);
+
 }  // namespace spume::fem

@@ -77,8 +77,8 @@ wrong 's/^boundary.*/boundary = ["wall", "walls", "wall"]/'
 refuses "bad boundary" 1 "^wrong.toml:6:12: 'domain.boundary' .*did you mean 'wall'\?$" run wrong.toml
 wrong '/foam.bubble/,/radius/d'
 refuses "no bubbles" 1 "^wrong.toml: no bubbles" run wrong.toml
-wrong 's/^\[cycle\]/[drainage]\nscheme = "paper"\n[cycle]/'
-refuses "feature of a later version" 1 "'drainage.scheme' .* is not available in this version$" run wrong.toml
+wrong 's/^\[cycle\]/[drainage]\nscheme = "papers"\n[cycle]/'
+refuses "unknown drainage scheme" 1 "'drainage.scheme' .*did you mean 'paper'" run wrong.toml
 wrong 's/^\[cycle\]/[foam.membrane]\npoint = [0, 0, 0]\nnormal = [0, 1, 1]\n[cycle]/'
 refuses "oblique membrane" 1 "^wrong.toml:.*must be along x, y or z" run wrong.toml
 wrong '/foam.bubble/,/radius/d; s/^\[cycle\]/[foam.labels]\nfile = "missing.mha"\n[cycle]/'

@@ -76,12 +76,6 @@ TEST(WrongCase, name_that_is_no_choice_is_told_with_the_choices) {
   EXPECT_THAT(report(sample_case, {"cycle.stages=[]"}), HasSubstr("a list of one or more of"));
 }
 
-TEST(WrongCase, feature_of_a_later_version_is_called_that) {
-  EXPECT_THAT(
-      report(sample_case + "[drainage]\nscheme = \"paper\"\n"),
-      HasSubstr("'drainage.scheme' (the choice of the drainage scheme) is not available in this version"));
-}
-
 TEST(WrongCase, all_problems_are_in_one_report_in_the_order_of_the_file) {
   const std::string text = report(sample_case + "[gas]\nviscosity = -1\ndensty = 1\n[cycle]\nstages = 3\n");
   EXPECT_EQ(std::ranges::count(text, '\n'), 2) << text;
