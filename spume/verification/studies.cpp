@@ -5,7 +5,22 @@ namespace spume::verification {
 
 const std::vector<Study>& studies() {
   const char* const geometry = "closed-form geometry, Young-Laplace";
+  const char* const linearised = "the linearised thin-film equation (docs/exact_drainage.md)";
+  const char* const derived = "closed form (docs/exact_drainage.md)";
   static const std::vector<Study> all{
+      {"film-modes-flat", "decay of small modes on a flat film", linearised, 1, 1, film_modes_flat},
+      {"film-modes-sphere", "decay of small modes on a sphere", linearised, 10, 1, film_modes_sphere},
+      {"film-modes-cylinder", "decay and growth of small modes on a tube", linearised, 10, 1,
+       film_modes_cylinder},
+      {"vertical-film", "a vertical film thins by its weight", derived, 1, 1, vertical_film},
+      {"spherical-film", "top and bottom of a spherical film by its weight", derived, 2, 1, spherical_film},
+      {"border-front", "a wetting front runs down a border", derived, 2, 1, border_front},
+      {"border-hydrostatic", "a vertical border at rest", derived, 1, 1, border_hydrostatic},
+      {"film-rim", "a flat film thins along its border", "one-dimensional finite volumes", 5, 1, film_rim},
+      {"film-corner", "a film thins in the corner between two borders", "a radially graded corner", 20, 5,
+       film_corner},
+      {"fig15-drainage", "the exact four-bubble cluster drains for 16.1 s on four meshes",
+       "the paper's Fig. 15; hydrostatics", 60, 5, fig15_drainage},
       {"taylor-green", "order of the gas flow on carried vortices", "closed-form flows", 15, 2, taylor_green},
       {"reconstruction-damping", "an oscillating bubble, reconstructed often and rarely",
        "reconstruction takes no energy", 20, 20, reconstruction_damping},

@@ -25,5 +25,15 @@ StudyRun fig13_oscillation;
 StudyRun taylor_green;
 StudyRun crystals;
 StudyRun interface_methods;
+StudyRun film_modes_flat;
+StudyRun film_modes_sphere;
+StudyRun film_modes_cylinder;
+StudyRun vertical_film;
+StudyRun spherical_film;
+StudyRun border_front;
+StudyRun border_hydrostatic;
+StudyRun film_rim;
+StudyRun film_corner;
+StudyRun fig15_drainage;
 
 }  // namespace spume::verification

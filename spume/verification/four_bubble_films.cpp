@@ -1,0 +1,201 @@
+#include "spume/verification/four_bubble_films.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "spume/base/contract.hpp"
+#include "spume/verification/exact_clusters.hpp"
+#include "spume/verification/film_networks.hpp"
+
+namespace spume::verification {
+
+namespace {
+
+constexpr int n_bubbles = 4;
+
+/// Centres of the spheres of radius 1; bubble b of 0, …, 3 is phase b + 1.
+std::array<Vec3, n_bubbles> centres() {
+  const double r = 1 / std::sqrt(3.0), z = 1 / std::sqrt(24.0);
+  return {Vec3{r, 0, -z}, Vec3{-r / 2, 0.5, -z}, Vec3{-r / 2, -0.5, -z}, Vec3{0, 0, 3 * z}};
+}
+
+/// Builds the mesh of the cluster of radius 1.
+class Builder {
+ public:
+  explicit Builder(double spacing)
+      : centre_(centres()),
+        exact_(equal_cluster(n_bubbles)),
+        n_inner_(std::max(2, static_cast<int>(std::lround(exact_.inner_border / spacing)))),
+        n_outer_(std::max(3, static_cast<int>(std::lround(exact_.outer_border / spacing)))) {
+    origin_ = add({0, 0, 0});
+    for (int b = 0; b < n_bubbles; ++b) inner_[b] = inner_border(b);
+    for (int c = 0; c < n_bubbles; ++c)
+      for (int d = c + 1; d < n_bubbles; ++d) outer_[{c, d}] = outer_border(c, d);
+    for (int a = 0; a < n_bubbles; ++a) {
+      add_cap(a);
+      for (int b = a + 1; b < n_bubbles; ++b) add_flat_film(a, b);
+    }
+  }
+
+  mesh::FilmMesh films() { return std::move(mesh_); }
+
+ private:
+  int add(const Vec3& x) {
+    mesh_.position.push_back(x);
+    return mesh_.n_vertices() - 1;
+  }
+  const Vec3& at(int v) const { return mesh_.position[v]; }
+  Vec3 junction(int opposite) const { return -exact_.outer_junction * normalized(centre_[opposite]); }
+
+  /// From the middle to the junction opposite to a bubble.
+  std::vector<int> inner_border(int opposite) {
+    std::vector<int> line{origin_};
+    for (int k = 1; k <= n_inner_; ++k)
+      line.push_back(add((static_cast<double>(k) / n_inner_) * junction(opposite)));
+    return line;
+  }
+
+  /// Along the circle between the other two bubbles, from the junction opposite to c to that opposite to d.
+  std::vector<int> outer_border(int c, int d) {
+    Vec3 middle;
+    for (int b = 0; b < n_bubbles; ++b)
+      if (b != c && b != d) middle += 0.5 * centre_[b];
+    const Vec3 from = junction(c) - middle, to = junction(d) - middle, top = normalized(from + to);
+    const double half = std::acos(dot(from, top) / norm(from));
+    const Vec3 side = normalized(to - from);
+    std::vector<int> line{inner_[c].back()};
+    for (int k = 1; k < n_outer_; ++k) {
+      const double angle = half * (2.0 * k / n_outer_ - 1);
+      line.push_back(add(middle + norm(from) * (std::cos(angle) * top + std::sin(angle) * side)));
+    }
+    line.push_back(inner_[d].back());
+    return line;
+  }
+
+  /// Along the outer border, in the direction asked for.
+  std::vector<int> outer(int from, int to) const {
+    std::vector<int> line = outer_.at(std::minmax(from, to));
+    if (from > to) std::ranges::reverse(line);
+    return line;
+  }
+  /// The point of an outer border at a share s of its length.
+  Vec3 on_outer(const std::vector<int>& line, double s) const {
+    const double k = s * n_outer_;
+    const int first = std::min(static_cast<int>(k), n_outer_ - 1);
+    return at(line[first]) + (k - first) * (at(line[first + 1]) - at(line[first]));
+  }
+
+  /// Rows from the middle of the cluster to the outer border, straight at first and then more and more round.
+  void add_flat_film(int a, int b) {
+    std::array<int, 2> other{};
+    for (int c = 0, n = 0; c < n_bubbles; ++c)
+      if (c != a && c != b) other[n++] = c;
+    const auto [c, d] = other;
+    const std::vector<int> arc = outer(c, d);
+    const Vec3 u = junction(c), v = junction(d);
+    const double opening = norm(u - v) / exact_.inner_border;
+    const bool from_a = dot(cross(u, v), centre_[b] - centre_[a]) > 0;
+    const mesh::Phase p = 1 + (from_a ? a : b), q = 1 + (from_a ? b : a);
+    std::vector<int> near{origin_};
+    for (int row = 1; row <= n_inner_; ++row) {
+      const double t = static_cast<double>(row) / n_inner_;
+      const double length = row * ((1 - t) * opening + t * n_outer_ / n_inner_);
+      const int pieces = row == n_inner_ ? n_outer_ : row == 1 ? 1 : static_cast<int>(std::lround(length));
+      std::vector<int> far{inner_[c][row]};
+      for (int j = 1; j < pieces; ++j) {
+        const double s = static_cast<double>(j) / pieces;
+        far.push_back(row == n_inner_ ? arc[j]
+                                      : add(t * ((1 - t) * ((1 - s) * u + s * v) + t * on_outer(arc, s))));
+      }
+      far.push_back(inner_[d][row]);
+      add_band(mesh_, near, far, p, q);
+      near = std::move(far);
+    }
+  }
+
+  /// Rows over a triangle whose sides are bent to the three outer borders; it lies in the plane into which
+  /// the sphere is projected from its point that is nearest to the middle of the cluster.
+  void add_cap(int a) {
+    std::array<int, 3> corner{};
+    for (int c = 0, n = 0; c < n_bubbles; ++c)
+      if (c != a) corner[n++] = c;
+    const Vec3 up = normalized(centre_[a]);
+    const auto project = [&](const Vec3& x) {
+      const Vec3 r = x - centre_[a];
+      return (r - dot(r, up) * up) / (1 + dot(r, up));
+    };
+    const auto lift = [&](const Vec3& y) {
+      const double square = norm_squared(y);
+      return centre_[a] + (2 * y + (1 - square) * up) / (1 + square);
+    };
+    const std::array<std::vector<int>, 3> side{outer(corner[0], corner[1]), outer(corner[1], corner[2]),
+                                               outer(corner[2], corner[0])};
+    std::array<Vec3, 3> at_corner;
+    for (int c = 0; c < 3; ++c) at_corner[c] = project(junction(corner[c]));
+    const auto inside = [&](const std::array<double, 3>& weight) {
+      Vec3 y;
+      for (int c = 0; c < 3; ++c) {
+        const int next = (c + 1) % 3;
+        y += weight[c] * at_corner[c];
+        const double sum = weight[c] + weight[next];
+        if (!(sum > 0)) continue;
+        const double s = weight[next] / sum;
+        const Vec3 bend =
+            project(on_sphere(on_outer(side[c], s), a)) - (1 - s) * at_corner[c] - s * at_corner[next];
+        y += sum * sum * bend;
+      }
+      return lift(y);
+    };
+    const int n = n_outer_;
+    std::vector<int> near{side[0].front()};
+    const bool outward = dot(cross(at_corner[1] - at_corner[0], at_corner[2] - at_corner[0]), up) > 0;
+    for (int row = 1; row <= n; ++row) {
+      std::vector<int> far{side[0][row]};
+      for (int j = 1; j < row; ++j)
+        far.push_back(row == n
+                          ? side[1][j]
+                          : add(inside({1 - row / static_cast<double>(n), (row - j) / static_cast<double>(n),
+                                        j / static_cast<double>(n)})));
+      far.push_back(side[2][n - row]);
+      add_band(mesh_, near, far, outward ? 1 + a : 0, outward ? 0 : 1 + a);
+      near = std::move(far);
+    }
+  }
+  Vec3 on_sphere(const Vec3& x, int a) const { return centre_[a] + normalized(x - centre_[a]); }
+
+  mesh::FilmMesh mesh_;
+  std::array<Vec3, n_bubbles> centre_;
+  EqualCluster exact_;
+  int n_inner_, n_outer_;  ///< edges of a border
+  int origin_ = 0;
+  std::array<std::vector<int>, n_bubbles> inner_;
+  std::map<std::pair<int, int>, std::vector<int>> outer_;
+};
+
+}  // namespace
+
+mesh::FilmMesh four_bubble_films(double radius, double spacing) {
+  expects(0 < spacing && spacing < radius, "edges shorter than the radius");
+  mesh::FilmMesh films = Builder(spacing / radius).films();
+  for (Vec3& x : films.position) x *= radius;
+  return films;
+}
+
+Middle four_bubble_middle(double radius) {
+  return [radius, centre = centres()](const Vec3& a, const Vec3& b, const mesh::PhaseSet& phases) {
+    const Vec3 x = 0.5 * (a + b);
+    if (!phases.contains(0)) return x;  // plane films and straight borders
+    // A border on the outside lies on a circle about the middle of two centres, a film on a sphere.
+    Vec3 c;
+    for (mesh::Phase p : phases)
+      if (p > 0) c += radius / (phases.size() - 1) * centre[p - 1];
+    const double r = phases.size() == 2 ? radius : std::sqrt(0.75) * radius;
+    return c + r * normalized(x - c);
+  };
+}
+
+}  // namespace spume::verification
