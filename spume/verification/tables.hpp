@@ -25,5 +25,6 @@ StudyRun fig13_oscillation;
 StudyRun taylor_green;
 StudyRun crystals;
 StudyRun interface_methods;
+StudyRun film_meshes;
 
 }  // namespace spume::verification
