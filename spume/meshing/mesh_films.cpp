@@ -2,75 +2,89 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include "spume/base/vec3.hpp"
+#include "spume/mesh/collapse.hpp"
+#include "spume/mesh/flip.hpp"
+#include "spume/mesh/split.hpp"
+#include "spume/meshing/moves.hpp"
+#include "spume/meshing/repair.hpp"
+#include "spume/meshing/size_field.hpp"
 
 namespace spume::meshing {
 
 namespace {
 
-/// Points on Plateau borders in cubic bins, to find how far a point is from the nearest, up to a reach.
-class BorderDistance {
- public:
-  BorderDistance(const mesh::FilmMesh& films, double reach) : domain_(films.domain), reach_(reach) {
-    const mesh::Topology topology = mesh::build_topology(films);
-    for (int v = 0; v < films.n_vertices(); ++v)
-      if (topology.vertex_kind[v] != mesh::VertexKind::Film) add(domain_.inside(films.position[v]));
-    std::sort(points_.begin(), points_.end(), [](const Point& a, const Point& b) { return a.bin < b.bin; });
-  }
+// To be on the film is worth more than a good angle, up to these [degrees]. What is poor at first improves.
+constexpr double least_angle_at_first = 5, least_angle = 22;
 
-  /// Distance to the nearest border vertex [m], or the reach where that is nearer.
-  double operator()(const Vec3& x) const {
-    double nearest = reach_ * reach_;
-    domain_.for_each_image(x, reach_, [&](const Vec3& image) { search(image, nearest); });
-    return std::sqrt(nearest);
+/// Splits and collapses until edges fit their targets, or nearly.
+void fit_edges(mesh::WorkingMesh& work, const mesh::TargetLength& target, const mesh::Projection& project,
+               mesh::RemeshReport& report) {
+  constexpr int most_rounds = 4, most_split_passes = 24;
+  mesh::RemeshParameters parameters;
+  parameters.split_above = 1.4;
+  for (int round = 0; round < most_rounds; ++round) {
+    const int n_before = report.n_split + report.n_collapsed;
+    for (int pass = 0; pass < most_split_passes; ++pass) {
+      const int n_split = mesh::split_long_edges(work, target, project, parameters.split_above);
+      if (n_split == 0) break;
+      report.n_split += n_split;
+      report.n_flipped += mesh::flip_edges(work);
+    }
+    report.n_collapsed += mesh::collapse_short_edges(work, target, parameters);
+    report.n_flipped += mesh::flip_edges(work);
+    if (report.n_split + report.n_collapsed == n_before) break;
   }
+}
 
- private:
-  using Bin = std::array<int, 3>;
-  struct Point {
-    Bin bin;
-    Vec3 position;
-  };
-
-  void add(const Vec3& x) { points_.push_back({bin_of(x), x}); }
-  void search(const Vec3& x, double& nearest_squared) const {
-    const Bin centre = bin_of(x);
-    for (int di = -1; di <= 1; ++di)
-      for (int dj = -1; dj <= 1; ++dj)
-        for (int dk = -1; dk <= 1; ++dk) {
-          const Bin bin{centre[0] + di, centre[1] + dj, centre[2] + dk};
-          auto p = std::lower_bound(points_.begin(), points_.end(), bin,
-                                    [](const Point& a, const Bin& b) { return a.bin < b; });
-          for (; p != points_.end() && p->bin == bin; ++p)
-            nearest_squared = std::min(nearest_squared, norm_squared(p->position - x));
-        }
+/// Sweeps of moves and flips, until hardly a vertex moves.
+void move_and_flip(mesh::WorkingMesh& work, const mesh::Projection& project,
+                   std::span<const double> target_length, int n_sweeps, mesh::RemeshReport& report) {
+  for (int sweep = 0; sweep < n_sweeps; ++sweep) {
+    StarMesh star_mesh(work);
+    const int n_moved = move_vertices(star_mesh, project, target_length);
+    report.n_flipped += mesh::flip_edges(work);
+    if (100 * n_moved < work.mesh.n_vertices()) break;
   }
-  Bin bin_of(const Vec3& x) const {
-    return {static_cast<int>(std::floor(x.x / reach_)), static_cast<int>(std::floor(x.y / reach_)),
-            static_cast<int>(std::floor(x.z / reach_))};
-  }
+}
 
-  Domain domain_;
-  double reach_;
-  std::vector<Point> points_;
-};
+Sizes sizes_of(double h, const MeshingParameters& p) {
+  const double layer = p.layer_width > 0 ? 0.5 * p.layer_width / h : p.edge_at_borders;
+  const double at_borders = std::min({std::max(layer, p.finest_at_borders), p.edge_at_borders, p.edge});
+  return {.in_films = p.edge * h,
+          .at_borders = at_borders * h,
+          .at_junctions = at_borders * h,
+          .smallest = p.smallest_edge * h,
+          .grading = p.grading};
+}
 
 }  // namespace
 
+double drainage_layer_width(double half_thickness, double border_area) {
+  return std::sqrt(half_thickness * std::sqrt(border_area / (std::numbers::sqrt3 - std::numbers::pi / 2)));
+}
+
 MeshingReport improve(mesh::FilmMesh& films, const mesh::Projection& project, double h,
                       const MeshingParameters& parameters) {
-  const double fine = parameters.edge_at_borders * h, coarse = parameters.edge * h;
-  const BorderDistance distance(films, std::max((coarse - fine) / parameters.grading, h));
-  const mesh::TargetLength target = [&](const Vec3& x) {
-    return std::min(coarse, fine + parameters.grading * distance(x));
-  };
-
   MeshingReport report;
-  mesh::RemeshParameters remeshing;
-  remeshing.split_above = 1.4;
-  remeshing.smoothing_sweeps = parameters.sweeps;
-  report.remesh = mesh::remesh(films, target, project, remeshing);
+  const SizeField size(films, mesh::build_topology(films), sizes_of(h, parameters));
+  const mesh::TargetLength target = [&](const Vec3& x) { return size(x); };
+  mesh::WorkingMesh work(films);
+  fit_edges(work, target, project, report.remesh);
+  {
+    StarMesh star_mesh(work);
+    project_vertices(star_mesh, project, least_angle_at_first);
+  }
+  move_and_flip(work, project, mesh::targets_at_vertices(films, target), parameters.sweeps, report.remesh);
+
+  const std::vector<double> target_length = mesh::targets_at_vertices(films, target);
+  StarMesh star_mesh(work);
+  if (parameters.one_triangle_a_corner) report.remesh.n_flipped += fill_corners(star_mesh);
+  project_vertices(star_mesh, project, least_angle);
+  report.repair = repair(star_mesh, project, target_length, parameters.wanted_angle_degrees);
+  report.n_off = project_vertices(star_mesh, project, least_angle);
+  work.remove(star_mesh.dead);
   report.after = mesh::measure_quality(films, mesh::build_topology(films));
   return report;
 }

@@ -34,6 +34,8 @@ const std::vector<Study>& studies() {
        tetrahedral_cluster},
       {"quasistatic", "clusters of two to 27 bubbles relaxed without gas",
        "closed-form geometry; an independent minimiser for five bubbles", 65, 10, quasistatic},
+      {"film-meshes", "meshes for drainage of 50 networks before and after ruptures",
+       "the mesh of Sec. 3.3.1", 250, 25, film_meshes},
       {"crystals", "the foams of Kelvin and of Weaire and Phelan", "Surface Evolver", 65, 20, crystals},
       {"bubble-volumes", "volume of every bubble while twenty rearrange", "nothing is lost", 120, 40,
        bubble_volumes},

@@ -35,5 +35,6 @@ StudyRun border_hydrostatic;
 StudyRun film_rim;
 StudyRun film_corner;
 StudyRun fig15_drainage;
+StudyRun film_meshes;
 
 }  // namespace spume::verification

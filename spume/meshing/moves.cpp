@@ -1,0 +1,77 @@
+#include "spume/meshing/moves.hpp"
+
+#include <algorithm>
+
+#include "spume/meshing/forces.hpp"
+
+namespace spume::meshing {
+
+namespace {
+
+constexpr double good_angle = 30;  // [degrees]
+
+/// The film around each triangle of v does not change while v moves a little.
+class StarBadness {
+ public:
+  StarBadness(const StarMesh& m, int v) : m_(m), v_(v) {
+    normal_.reserve(m.star[v].size());
+    for (int t : m.star[v]) normal_.push_back(m.film_normal(t));
+  }
+  double at(const Vec3& x) const {
+    double worst = 0;
+    for (std::size_t n = 0; n < normal_.size(); ++n)
+      worst = std::max(worst, badness(m_.corners_with(m_.star[v_][n], v_, x), normal_[n]));
+    return worst;
+  }
+
+ private:
+  const StarMesh& m_;
+  int v_;
+  std::vector<Vec3> normal_;
+};
+
+}  // namespace
+
+double badness_around(const StarMesh& m, int v, const Vec3& x) {
+  return StarBadness(m, v).at(x);
+}
+
+int move_vertices(StarMesh& m, const mesh::Projection& project, std::span<const double> target) {
+  constexpr int most_halvings = 4;
+  constexpr double not_worth_it = 0.02;  // of the target
+  const double good_enough = badness_of_angle(good_angle);
+  int n_moved = 0;
+  for (int v = 0; v < m.films.n_vertices(); ++v) {
+    Vec3 step = wanted_displacement(m, target, v);
+    const double least = not_worth_it * target[v];
+    if (norm_squared(step) < least * least) continue;
+    const Vec3 start = m.films.position[v];
+    const StarBadness around(m, v);
+    const double limit = std::max(around.at(start), good_enough);
+    for (int halving = 0; halving <= most_halvings; ++halving, step *= 0.5) {
+      const auto there = project(start + step, m.work.phases[v]);
+      if (!there || around.at(*there) > limit) continue;
+      m.films.position[v] = *there;
+      ++n_moved;
+      break;
+    }
+  }
+  return n_moved;
+}
+
+int project_vertices(StarMesh& m, const mesh::Projection& project, double least_degrees) {
+  const double acceptable = badness_of_angle(least_degrees);
+  int n_off = 0;
+  for (int v = 0; v < m.films.n_vertices(); ++v) {
+    if (m.work.held[v] || m.star[v].empty()) continue;
+    const auto there = project(m.films.position[v], m.work.phases[v]);
+    const StarBadness around(m, v);
+    if (there && around.at(*there) <= std::max(around.at(m.films.position[v]), acceptable))
+      m.films.position[v] = *there;
+    else
+      ++n_off;
+  }
+  return n_off;
+}
+
+}  // namespace spume::meshing

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+
+#include "spume/mesh/remesh.hpp"
+#include "spume/meshing/star_mesh.hpp"
+
+namespace spume::meshing {
+
+/// One sweep over the vertices in their order: each goes where the forces want it (forces.hpp) and back onto
+/// its film, border or junction. Its step is halved, up to four times, until no triangle around it gets worse
+/// than it may: an angle below 30 degrees must not become smaller, no triangle may turn away from the film.
+/// So the step adapts to what room there is, and no sweep inverts an element or lowers the smallest angle of
+/// the mesh below 30 degrees. Displacements below 0.02 of the target are left. Gives the number of vertices
+/// moved.
+int move_vertices(StarMesh& star_mesh, const mesh::Projection& project, std::span<const double> target);
+
+/// Puts the vertices onto their films, borders and junctions, where no triangle turns away from the film and
+/// no angle falls below `least_degrees` that was not smaller before. Gives the number of vertices that are
+/// not put onto theirs, those where more than four phases meet among them.
+int project_vertices(StarMesh& star_mesh, const mesh::Projection& project, double least_degrees);
+
+/// The worst badness (star_mesh.hpp) of the triangles around v with v at x.
+double badness_around(const StarMesh& star_mesh, int v, const Vec3& x);
+
+}  // namespace spume::meshing
