@@ -87,8 +87,8 @@ FilmUpdate FoamMotion::reconstruct() {
 double FoamMotion::carry_films(double dt, std::vector<state::Event>& events) {
   auto& foam = run_.foam;
   gas_.film_velocity(foam.gas, film_velocity_);
-  sharpening_.apply(film_velocity_);
   times_.lap("gas");
+  sharpening_.apply(film_velocity_);
   if (viim_) {
     ViimStep moved = viim_->move(foam, film_velocity_, kernel_, dt);
     topology_ = std::move(moved.update.topology);
