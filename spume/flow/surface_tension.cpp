@@ -16,9 +16,11 @@ FilmForces film_forces(const mesh::FilmMesh& films, const mesh::Topology& topolo
 }
 
 void ForceSpreader::spread(const mesh::FilmMesh& films, const FilmForces& forces,
-                           const grid::KernelCoupling& kernel, grid::VectorField& density) {
+                           const grid::KernelCoupling& kernel, grid::Sharpening& sharpening,
+                           grid::VectorField& density) {
   for (grid::Field& component : on_faces_.components) component.fill(0);
   kernel.spread(films.position, forces.on_vertex, on_faces_);
+  sharpening.apply(on_faces_, kernel.placement);
   const grid::Grid& grid = density[0].grid();
   const Index3 n = grid.cells();
   for (int c = 0; c < 3; ++c) {

@@ -4,6 +4,7 @@
 
 #include "spume/grid/field.hpp"
 #include "spume/grid/kernel_coupling.hpp"
+#include "spume/grid/sharpening.hpp"
 #include "spume/mesh/film_mesh.hpp"
 #include "spume/mesh/topology.hpp"
 #include "spume/state/materials.hpp"
@@ -25,10 +26,10 @@ class ForceSpreader {
  public:
   explicit ForceSpreader(const grid::Grid& grid) : on_faces_(grid), ghosted_(on_faces_[0]) {}
 
-  /// st_ζ of the paper's (7): vertex forces spread to faces by the kernel, and to the centres of cells by the
-  /// mean of a cell's two faces [N/m³]. Overwrites `density`. Collective.
+  /// st_ζ of the paper's (7): vertex forces spread to faces by the kernel, sharpened, and brought to the
+  /// centres of cells by the mean of a cell's two faces [N/m³]. Overwrites `density`. Collective.
   void spread(const mesh::FilmMesh& films, const FilmForces& forces, const grid::KernelCoupling& kernel,
-              grid::VectorField& density);
+              grid::Sharpening& sharpening, grid::VectorField& density);
 
  private:
   grid::VectorField on_faces_;

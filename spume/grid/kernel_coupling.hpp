@@ -14,19 +14,16 @@ namespace spume::grid {
 enum class Placement { Centres, Faces };
 
 /// The pair of operators that couples points of the film mesh to the grid: spreading and sampling with one
-/// kernel δ − a h² Δ_h δ, where δ(r) = Π_d (1 + cos(π r_d/ζ))/(2ζ), |r_d| < ζ, is the tensor cosine and Δ_h
-/// the 7-point Laplacian of the grid. They are adjoint, so work done by spread forces equals the work that
-/// the sampled velocity does on the points. Points are the same on every rank; each rank handles the part of
-/// the kernels over its slab.
+/// kernel, δ(r) = Π_d M(r_d/h)/h, M the cubic B-spline: ⅔ − s² + ½|s|³ for |s| ≤ 1, (2 − |s|)³/6 for 1 ≤ |s|
+/// ≤
+/// 2. They are adjoint, so work done by spread forces equals the work that the sampled velocity does on the
+/// points. Points are the same on every rank; each rank handles the part of the kernels over its slab.
 ///
-/// Why −a h² Δ_h: a kernel without negative part smears forces and velocities by its second moment; with
-/// a = ζ²/(2h²) (1/3 − 2/π²) + 1/8 = 0.272 that of kernel and mean of two cells together vanishes, and a = ¼
-/// also makes up for the seven-point Laplacian of the projection. Linear theory of a plane film wave on the
-/// grid then gives, at a Stokes layer of 3.6 cells, 0.3 % of frequency and 0.2 % of damping (plain: 1.0
-/// and 4.5 %); see docs/decisions/0013.
+/// Why a spline: it samples linear fields exactly. A kernel that does not, as the cosine of half-width 1.5 h
+/// does not, gives vertices velocities that waver from cell to cell by some hundredths of h times the
+/// gradient; films then have a stiffness of their mesh's making. Its width is made up for by
+/// grid::Sharpening; see docs/decisions/0013.
 struct KernelCoupling {
-  double half_width_cells = 1.5;  ///< ζ/h, from 1 to 4; 2ζ/h an integer keeps the partition of unity
-  double sharpening = 0.25;       ///< a; belongs to ζ = 1.5 h and values on faces
   Placement placement = Placement::Faces;
 
   /// density(x) += Σ_p F_p δ(x − x_p): a force [N] a point becomes a force density [N/m³]. Periodic images

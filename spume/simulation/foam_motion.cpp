@@ -14,6 +14,7 @@ FoamMotion::FoamMotion(const grid::Grid& grid, const Case& run_case, RunState& r
     : grid_(grid),
       case_(run_case),
       run_(run),
+      sharpening_(grid),
       gas_(grid, run_case.materials.gas, run_case.flow),
       spreader_(grid),
       force_(grid),
@@ -87,6 +88,7 @@ double FoamMotion::carry_films(double dt, std::vector<state::Event>& events) {
   auto& foam = run_.foam;
   gas_.film_velocity(foam.gas, film_velocity_);
   times_.lap("gas");
+  sharpening_.apply(film_velocity_);
   if (viim_) {
     ViimStep moved = viim_->move(foam, film_velocity_, kernel_, dt);
     topology_ = std::move(moved.update.topology);
@@ -112,7 +114,7 @@ MotionStep FoamMotion::step() {
   times_.restart();
   const auto forces = flow::film_forces(foam.films, topology_, foam.phases.count(), sigma);
   times_.lap("film forces");
-  spreader_.spread(foam.films, forces, kernel_, force_);
+  spreader_.spread(foam.films, forces, kernel_, sharpening_, force_);
   times_.lap("spreading");
 
   MotionStep done{.limit = choose_step(), .events = {}};

@@ -7,6 +7,7 @@
 #include "spume/flow/navier_stokes.hpp"
 #include "spume/flow/surface_tension.hpp"
 #include "spume/grid/kernel_coupling.hpp"
+#include "spume/grid/sharpening.hpp"
 #include "spume/mesh/topology.hpp"
 #include "spume/simulation/film_update.hpp"
 #include "spume/simulation/run_state.hpp"
@@ -55,6 +56,7 @@ class FoamMotion {
   const Case& case_;
   RunState& run_;
   grid::KernelCoupling kernel_;
+  grid::Sharpening sharpening_;
   flow::NavierStokes gas_;
   flow::ForceSpreader spreader_;
   grid::VectorField force_, film_velocity_;

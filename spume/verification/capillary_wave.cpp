@@ -63,13 +63,15 @@ double wave_error(const parallel::Communicator& communicator, int cells) {
 
 void capillary_wave(const parallel::Communicator& communicator, Scale scale, Report& report) {
   report.note(
-      "a wave of a hundredth of its length on a film between equal fluids, 2σρλ/μ² = 3000, to ω0 t = 25");
+      "a wave of a hundredth of its length on a film between equal fluids, 2σρλ/μ² = 3000, to ω0 t = "
+      "25; film on faces of the grid; set-up, norm and figures are those of Basilisk's test capwave.c "
+      "(Popinet and Zaleski 1999), in a box three wavelengths high (as in Gerris) in place of two");
   double coarser = 0;
   for (const auto& [cells, limit] : {std::pair{8, 0.14}, {16, 0.025}, {32, 0.0065}, {64, 0.0025}}) {
     if (scale == Scale::Small && cells > 16) break;
     const double error = wave_error(communicator, cells);
     report.at_most(fmt::format("rms error of a/a0, {} cells a wave length", cells), error, limit,
-                   "exact initial-value solution (Prosperetti 1981); best published figures");
+                   "exact initial-value solution (Prosperetti 1981); Basilisk's figures");
     if (coarser > 0) report.told("order of convergence", std::log2(coarser / error), "second order", 2.0);
     coarser = error;
   }

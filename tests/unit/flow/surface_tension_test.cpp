@@ -98,7 +98,8 @@ TEST(SurfaceTension, SpreadForceHasTheTotalAndTheMomentOfTheVertexForces) {
                         {{0, 0, 0}, {box_length, box_length, box_length}, {48, 48, 48}, {}});
   grid::VectorField density(grid);
   for (grid::Field& component : density.components) component.fill(7);  // must be overwritten
-  flow::ForceSpreader(grid).spread(films, forces, grid::KernelCoupling{}, density);
+  grid::Sharpening sharpening(grid);
+  flow::ForceSpreader(grid).spread(films, forces, grid::KernelCoupling{}, sharpening, density);
   const double cell = std::pow(grid.h(), 3);
   const double scale = magnitude(forces.on_vertex);
   double stretching = 0, of_vertices = 0;

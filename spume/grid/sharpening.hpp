@@ -1,0 +1,33 @@
+#pragma once
+
+#include "spume/grid/field.hpp"
+#include "spume/grid/kernel_coupling.hpp"
+
+namespace spume::grid {
+
+/// Makes up for the width of the kernel that couples films and grid: S = 1 + aλ + bλ², λ = −h² Δ_h with the
+/// 7-point Laplacian Δ_h. What was spread is sharpened before the gas feels it, and the velocity of the gas
+/// before it is sampled; S is symmetric, so the pair of operators stays adjoint, and it leaves a velocity on
+/// faces as free of divergence as it was.
+///
+/// The cubic spline alone would be undone to fourth order by a = 1/6, b = 7/240. The values here are those
+/// with which the linear theory of a film wave on the grid, projection and flat triangles included, is
+/// nearest to the exact law from 8 to 64 cells a wavelength; see docs/decisions/0013.
+class Sharpening {
+ public:
+  static constexpr double a = 0.14, b = 0.085;
+
+  explicit Sharpening(const Grid& grid) : image_(Field(grid)), ghosted_(image_) {}
+
+  /// u ← S u, components continued across walls by their symmetry; one that lies on a wall's faces is
+  /// zero there, before and after. Collective. The result is bitwise the same on any number of ranks.
+  void apply(VectorField& u, Placement placement = Placement::Faces);
+
+ private:
+  void add_laplacian(const Field& of, double keep, double factor, int walled_axis, Field& to);
+
+  Field image_;  ///< a u + b λu
+  Ghosted<1> ghosted_;
+};
+
+}  // namespace spume::grid
