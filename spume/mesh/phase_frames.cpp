@@ -60,6 +60,7 @@ Vec3 highest(const std::array<Vec3, 3>& corner) {
 PhaseFrames::PhaseFrames(const FilmMesh& mesh, int n_phases) : domain_(mesh.domain), frame_(n_phases) {
   as_stored_ = take_as_stored(mesh);
   if (!as_stored_) take_images(mesh);
+  for (Frame& f : frame_) f.middle = 0.5 * (f.lower + f.upper);
 }
 
 /// Most foams lie inside their box, also a periodic one. Then triangles are stored in one piece, and so is
@@ -67,7 +68,7 @@ PhaseFrames::PhaseFrames(const FilmMesh& mesh, int n_phases) : domain_(mesh.doma
 /// middle.
 bool PhaseFrames::take_as_stored(const FilmMesh& mesh) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  frame_.assign(frame_.size(), Frame{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}});
+  frame_.assign(frame_.size(), Frame{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, {}});
   Vec3 half{infinity, infinity, infinity}, widest = half;
   for (int d = 0; d < 3; ++d)
     if (domain_.periodic[d]) {
@@ -145,7 +146,7 @@ std::array<Vec3, 3> PhaseFrames::place(Phase p, const std::array<Vec3, 3>& corne
   return {corner[0] + shift, corner[1] + shift, corner[2] + shift};
 }
 
-double PhaseFrames::cone(Phase p, const std::array<Vec3, 3>& corner, const Vec3& area) const {
+double PhaseFrames::cone_of_images(Phase p, const std::array<Vec3, 3>& corner, const Vec3& area) const {
   const Frame& f = frame_[p];
   // A layer between walls has no closed surface: what it holds is counted from the bottom of the box.
   const Vec3 o = f.n_bounded == 3 ? middle(p) : domain_.lower;

@@ -71,30 +71,44 @@ std::vector<double> phase_constants(const FilmMesh& mesh, std::span<const double
   return constant;
 }
 
+/// Σ w n nᵀ, symmetric, and Σ w c n of a vertex.
+struct NormalEquations {
+  double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
+  Vec3 right;
+
+  void add(double w, const Vec3& n, double wanted) {
+    const Vec3 wn = w * n;
+    xx += wn.x * n.x;
+    yy += wn.y * n.y;
+    zz += wn.z * n.z;
+    xy += wn.x * n.y;
+    xz += wn.x * n.z;
+    yz += wn.y * n.z;
+    right += wanted * wn;
+  }
+  /// By cofactors, with a multiple of the trace on the diagonal, without which two directions of a flat film
+  /// would be free; zero for a vertex without films.
+  Vec3 solution() const {
+    const double trace = xx + yy + zz, r = regularisation * trace;
+    if (!(trace > 0)) return {};
+    const Vec3 a{xx + r, xy, xz}, b{xy, yy + r, yz}, c{xz, yz, zz + r};
+    const Vec3 bc = cross(b, c);
+    return (right.x * bc + right.y * cross(c, a) + right.z * cross(a, b)) / dot(a, bc);
+  }
+};
+
 /// At each vertex the displacement x that minimises Σ A_t (n_t·x − (c_a − c_b))² over its triangles t.
 std::vector<Vec3> displacements(const FilmMesh& mesh, const std::vector<double>& constant) {
-  std::vector<Eigen::Matrix3d> normal_matrix(mesh.n_vertices(), Eigen::Matrix3d::Zero());
-  std::vector<Eigen::Vector3d> right_side(mesh.n_vertices(), Eigen::Vector3d::Zero());
+  std::vector<NormalEquations> equations(mesh.n_vertices());
   for (int t = 0; t < mesh.n_triangles(); ++t) {
     const Vec3 doubled_normal = doubled_area_normal(mesh, t);
     const double weight = norm(doubled_normal);
     if (!(weight > 0)) continue;
-    const Vec3 unit = doubled_normal / weight;
-    const Eigen::Vector3d n(unit.x, unit.y, unit.z);
     const double wanted = constant[mesh.triangle[t].phase_a] - constant[mesh.triangle[t].phase_b];
-    for (int v : mesh.triangle[t].vertex) {
-      normal_matrix[v] += weight * n * n.transpose();
-      right_side[v] += weight * wanted * n;
-    }
+    for (int v : mesh.triangle[t].vertex) equations[v].add(weight, doubled_normal / weight, wanted);
   }
   std::vector<Vec3> displacement(mesh.n_vertices());
-  for (int v = 0; v < mesh.n_vertices(); ++v) {
-    const double trace = normal_matrix[v].trace();
-    if (!(trace > 0)) continue;
-    normal_matrix[v].diagonal().array() += regularisation * trace;
-    const Eigen::Vector3d x = normal_matrix[v].ldlt().solve(right_side[v]);
-    displacement[v] = {x[0], x[1], x[2]};
-  }
+  for (int v = 0; v < mesh.n_vertices(); ++v) displacement[v] = equations[v].solution();
   return displacement;
 }
 
