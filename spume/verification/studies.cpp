@@ -6,11 +6,17 @@ namespace spume::verification {
 const std::vector<Study>& studies() {
   const char* const geometry = "closed-form geometry, Young-Laplace";
   static const std::vector<Study> all{
+      {"border-table3", "drainage of four Plateau borders with a known solution", "the paper's Table 3", 5, 1,
+       border_table3},
+      {"border-table4", "drainage of four Plateau borders under gravity", "the paper's Table 4", 5, 1,
+       border_table4},
       {"taylor-green", "order of the gas flow on carried vortices", "closed-form flows", 15, 2, taylor_green},
       {"reconstruction-damping", "an oscillating bubble, reconstructed often and rarely",
        "reconstruction takes no energy", 20, 20, reconstruction_damping},
       {"reconstruction", "the exact tetrahedral cluster, reconstructed 1 and 20 times without flow",
        "closed-form geometry, Plateau's laws", 40, 5, reconstruction},
+      {"lamella-table2", "drainage of a catenoid under gravity", "the paper's Table 2", 40, 5,
+       lamella_table2},
       {"double-bubble", "two equal spheres to rest by gas dynamics", geometry, 50, 10, double_bubble},
       {"unequal-double-bubble", "two spheres of volumes 1:2 to rest by gas dynamics", geometry, 50, 10,
        unequal_double_bubble},
@@ -26,6 +32,8 @@ const std::vector<Study>& studies() {
        10, oscillating_bubble},
       {"static-currents", "spurious currents of exact clusters at rest",
        "a foam in equilibrium does not move", 300, 30, static_currents},
+      {"lamella-table1", "drainage of a catenoid with a known solution", "the paper's Table 1; closed form",
+       150, 15, lamella_table1},
       {"fig12-area", "film area after a cluster loses a film", "the paper's Fig. 12; equilibrium without gas",
        300, 50, fig12_area},
       {"fig13-oscillation", "frequency of a bubble merged from two", "the paper's Fig. 13; exact viscous law",

@@ -25,5 +25,9 @@ StudyRun fig13_oscillation;
 StudyRun taylor_green;
 StudyRun crystals;
 StudyRun interface_methods;
+StudyRun border_table3;
+StudyRun border_table4;
+StudyRun lamella_table1;
+StudyRun lamella_table2;
 
 }  // namespace spume::verification
