@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
@@ -24,6 +25,11 @@ struct Unknowns {
 /// [m³/s], of one face of the films.
 using Forcing = std::function<void(double time, Unknowns& rate)>;
 
+/// When a step of ROS2 from t takes the forcing, in units of Δt after t: γ in Stepper::start() and 1 − γ in
+/// Stepper::attempt(). To the order of the scheme these are the terms F + γ Δt F_t and F(t + Δt) − γ Δt F_t
+/// that it asks for where F depends on time.
+inline constexpr double first_forcing = 1 - 1 / std::numbers::sqrt2, second_forcing = 1 / std::numbers::sqrt2;
+
 /// The coupled drainage equations of a network, M y' = F(y), and their linearisation. M is the diagonal of
 /// lumped areas and lengths. The matrix J drops ∂Q/∂λ in films and borders alike, so that (2, 1)ᵀ J = 0 still
 /// holds: the ledger is kept to round-off, and each lamella has a matrix of its own, with λ lagged in it.
@@ -35,8 +41,7 @@ class DrainageEquations {
   /// Borders by themselves, without films.
   DrainageEquations(BorderNetwork borders, const state::Materials& materials);
 
-  /// Adds a forcing to the rates, which J does not know. A step is second order with it if the time is that
-  /// of the state in Stepper::start() and that of the end of the step in Stepper::attempt().
+  /// Adds a forcing to the rates, taken at the time set last [s]; J does not know it.
   void force(Forcing forcing) { forcing_ = std::move(forcing); }
   void set_time(double time) { time_ = time; }
 

@@ -172,10 +172,12 @@ std::optional<BorderFault> PaperBorders::advance(double dt, std::span<const doub
     const auto size = static_cast<std::size_t>(borders_.curve[c].n_nodes());
     const auto own = lambda.subspan(offset_[c], size);
     advance_curve(static_cast<int>(c), dt, load.subspan(offset_[c], size), own);
-    const auto bad =
-        std::find_if(own.begin(), own.end(), [](double v) { return !(v > 0) || !std::isfinite(v); });
-    if (bad != own.end())
-      return BorderFault{-1, static_cast<int>(c), static_cast<int>(bad - own.begin()), *bad};
+    // The lowest, or one that is not a number.
+    const auto worst = std::min_element(own.begin(), own.end(), [](double v, double w) {
+      return std::isnan(v) ? !std::isnan(w) : v < w;
+    });
+    if (!(*worst > 0) || !std::isfinite(*worst))
+      return BorderFault{-1, static_cast<int>(c), static_cast<int>(worst - own.begin()), *worst};
   }
   return {};
 }

@@ -147,10 +147,12 @@ bool PaperLamella::advance(double dt, std::span<const double> load, std::span<do
 
 bool PaperLamella::factorise(double s) {
   // Within this range the iteration converges by a factor of ten and more a step.
-  if (factorised_ > 0 && s > 0.7 * factorised_ && s < 1.4 * factorised_) return true;
+  if (factorised_ && s >= 0.7 * *factorised_ && s <= 1.4 * *factorised_) return true;
+  factorised_.reset();
   for (std::size_t p = 0; p < value_.size(); ++p) value_[p] = mass_[p] + s * biharmonic_[p];
-  factorised_ = lu_.front().factorise(value_) ? s : 0;
-  return factorised_ > 0;
+  if (!lu_.front().factorise(value_)) return false;
+  factorised_ = s;
+  return true;
 }
 
 void PaperLamella::multiply(double s, std::span<const double> x, std::span<double> result) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -70,7 +71,7 @@ class PaperLamella {
   std::vector<double> mass_, biharmonic_;      ///< M [m²] and K M~⁻¹ K [1/m²]
   std::vector<double> value_;                  ///< of one matrix before its factorisation
   std::vector<fem::SparseLu> lu_;              ///< one
-  double factorised_ = 0;                      ///< s of the factors
+  std::optional<double> factorised_;           ///< s of the factors
   std::vector<double> laplacian_of_eta_, right_, change_, direction_, scaled_, product_;
 };
 

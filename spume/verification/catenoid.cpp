@@ -12,6 +12,7 @@
 #include "spume/drainage/equations.hpp"
 #include "spume/drainage/step.hpp"
 #include "spume/fem/triangle_matrices.hpp"
+#include "spume/mesh/measure.hpp"
 
 namespace spume::verification {
 
@@ -85,6 +86,12 @@ void subtract_flux(const Catenoid& mesh, double t, std::vector<double>& rate) {
   }
 }
 
+std::vector<double> exact_eta(const Catenoid& mesh, double t) {
+  std::vector<double> eta;
+  for (const auto& [u, v] : mesh.parameter) eta.push_back(catenoid_solution(u, v, t).eta);
+  return eta;
+}
+
 /// ‖·‖₂ of a piecewise linear function.
 double norm_of(const Catenoid& mesh, const std::vector<double>& f) {
   double square = 0;
@@ -147,6 +154,20 @@ Catenoid catenoid(int n, CatenoidMesh kind) {
 
 Vec3 catenoid_normal(double u, double v) {
   return {std::cos(u) / std::cosh(v), std::sin(u) / std::cosh(v), -std::tanh(v)};
+}
+
+double catenoid_distance(const Vec3& x) {
+  // The foot lies on the meridian of x: Newton's method for v where (r − cosh v, z − v) is normal to it.
+  const double r = std::hypot(x.x, x.y);
+  double v = x.z;
+  for (int n = 0; n < 50; ++n) {
+    const double along = (r - std::cosh(v)) * std::sinh(v) + x.z - v;
+    const double slope = (r - std::cosh(v)) * std::cosh(v) - std::sinh(v) * std::sinh(v) - 1;
+    const double step = along / slope;
+    v -= step;
+    if (std::abs(step) < 1e-15) break;
+  }
+  return (r - std::cosh(v)) / std::cosh(v) - (x.z - v) * std::tanh(v);
 }
 
 drainage::LamellaSurface catenoid_surface(const Catenoid& mesh, const Vec3& gravity) {
@@ -214,9 +235,9 @@ LamellaRun positive_lamella_run(const Catenoid& mesh, const state::Materials& ma
     });
   const auto stepper = std::make_shared<drainage::Stepper>(*equations);
   return [equations, stepper](double t, double dt, std::vector<double>& eta) {
-    equations->set_time(t);
+    equations->set_time(t + drainage::first_forcing * dt);
     stepper->start({eta, {}});
-    equations->set_time(t + dt);
+    equations->set_time(t + drainage::second_forcing * dt);
     const drainage::Trial& trial = stepper->attempt(drainage::Method::Rosenbrock, dt);
     if (!trial.positive) throw NumericalError("the film ran dry on the catenoid");
     eta = trial.y.film;
@@ -224,20 +245,21 @@ LamellaRun positive_lamella_run(const Catenoid& mesh, const state::Materials& ma
 }
 
 LamellaError lamella_error(const Catenoid& mesh, const LamellaRun& run, double end, int steps) {
-  const auto exact = [&](double t) {
-    std::vector<double> eta;
-    for (const auto& [u, v] : mesh.parameter) eta.push_back(catenoid_solution(u, v, t).eta);
-    return eta;
-  };
-  std::vector<double> eta = exact(0);
+  std::vector<double> eta = exact_eta(mesh, 0);
   LamellaError most;
   for (int step = 1; step <= steps; ++step) {
     run(end * (step - 1) / steps, end / steps, eta);
-    std::vector<double> error = exact(end * step / steps);
+    std::vector<double> error = exact_eta(mesh, end * step / steps);
     for (std::size_t d = 0; d < eta.size(); ++d) error[d] -= eta[d];
     measure(mesh, error, most);
   }
   return most;
+}
+
+std::vector<double> lamella_end(const Catenoid& mesh, const LamellaRun& run, double end, int steps) {
+  std::vector<double> eta = exact_eta(mesh, 0);
+  for (int step = 1; step <= steps; ++step) run(end * (step - 1) / steps, end / steps, eta);
+  return eta;
 }
 
 LamellaHistory lamella_history(const Catenoid& mesh, const LamellaRun& run, int steps) {
@@ -250,6 +272,17 @@ LamellaHistory lamella_history(const Catenoid& mesh, const LamellaRun& run, int 
     if (step % (steps / n_samples) == 0) history.push_back(eta);
   }
   return history;
+}
+
+std::vector<double> lamella_liquid(const Catenoid& mesh, const LamellaHistory& history) {
+  const auto area = mesh::film_dof_areas(mesh.network.mesh, mesh.network.topology);
+  std::vector<double> liquid;
+  for (const auto& eta : history) {
+    long double sum = 0;  // so that what is shown is the scheme and not the summation
+    for (std::size_t d = 0; d < eta.size(); ++d) sum += static_cast<long double>(area[d]) * eta[d];
+    liquid.push_back(static_cast<double>(sum));
+  }
+  return liquid;
 }
 
 LamellaError lamella_difference(const Catenoid& coarse, const LamellaHistory& eta_coarse, int n,

@@ -31,8 +31,10 @@ struct Catenoid {
 };
 Catenoid catenoid(int n, CatenoidMesh kind = CatenoidMesh::Regular);
 
-/// Unit normal at v, u.
+/// Unit normal at u, v.
 Vec3 catenoid_normal(double u, double v);
+/// Distance to the catenoid that goes on for ever, positive outside.
+double catenoid_distance(const Vec3& x);
 
 /// The surface as the published scheme takes it, with exact k and g_s.
 drainage::LamellaSurface catenoid_surface(const Catenoid& mesh, const Vec3& gravity);
@@ -67,9 +69,14 @@ LamellaRun positive_lamella_run(const Catenoid& mesh, const state::Materials& ma
 /// Table 1: error over 0 ≤ t ≤ end.
 LamellaError lamella_error(const Catenoid& mesh, const LamellaRun& run, double end, int steps);
 
+/// η at t = end of a run that starts on the solution of Table 1.
+std::vector<double> lamella_end(const Catenoid& mesh, const LamellaRun& run, double end, int steps);
+
 /// Table 2: η = 1 drains for 0 ≤ t ≤ 2; η at t = 1/4, 1/2, …, 2. Takes a multiple of 8 steps.
 using LamellaHistory = std::vector<std::vector<double>>;
 LamellaHistory lamella_history(const Catenoid& mesh, const LamellaRun& run, int steps);
+/// ∫ η dA at each of those times.
+std::vector<double> lamella_liquid(const Catenoid& mesh, const LamellaHistory& history);
 /// How far the run on a regular mesh of n sections is from that of 2n, on the vertices of the coarser.
 LamellaError lamella_difference(const Catenoid& coarse, const LamellaHistory& eta_coarse, int n,
                                 const LamellaHistory& eta_fine);

@@ -143,9 +143,9 @@ void run_positive(int n, double dt, int steps, const Given& initial, const Given
     });
   drainage::Stepper stepper(equations);
   for (int step = 1; step <= steps; ++step) {
-    equations.set_time((step - 1) * dt);
+    equations.set_time((step - 1 + drainage::first_forcing) * dt);
     stepper.start(y);
-    equations.set_time(step * dt);
+    equations.set_time((step - 1 + drainage::second_forcing) * dt);
     const drainage::Trial& trial = stepper.attempt(drainage::Method::Rosenbrock, dt);
     if (!trial.positive) throw NumericalError("a border ran dry in step " + std::to_string(step));
     y = trial.y;
@@ -239,11 +239,31 @@ BorderError published_border_error(int n, int steps) {
 BorderError positive_border_error(int n, int steps) {
   return error_of(run_positive, n, steps);
 }
+std::vector<std::vector<double>> positive_border_end(int n, int steps) {
+  std::vector<std::vector<double>> end;
+  run_positive(n, 1.0 / steps, steps, exact_border_area, exact_border_source,
+               [&](int step, const NodeValue& value) {
+                 if (step == steps) end = sample(n, value);
+               });
+  return end;
+}
 BorderHistory published_border_history(int n, int steps) {
   return history_of(run_published, n, steps);
 }
 BorderHistory positive_border_history(int n, int steps) {
   return history_of(run_positive, n, steps);
+}
+
+std::vector<double> border_liquid(const BorderHistory& history) {
+  const drainage::PaperBorders borders(four_borders(static_cast<int>(history.front().front().size()) - 1),
+                                       four_borders_materials());
+  std::vector<double> liquid;
+  for (const auto& fields : history) {
+    std::vector<double> lambda;
+    for (const auto& nodes : fields) lambda.insert(lambda.end(), nodes.begin(), nodes.end());
+    liquid.push_back(borders.liquid(lambda));
+  }
+  return liquid;
 }
 
 BorderError border_difference(const BorderHistory& coarse, const BorderHistory& fine) {

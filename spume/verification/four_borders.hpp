@@ -42,6 +42,9 @@ BorderError published_border_error(int n, int steps);
 /// The same of the positive scheme.
 BorderError positive_border_error(int n, int steps);
 
+/// λ at t = 1 of the positive scheme on that problem.
+std::vector<std::vector<double>> positive_border_end(int n, int steps);  ///< [border][node]
+
 /// Nodal λ of all borders at the 32 times T/32, …, T that every run has.
 using BorderHistory = std::vector<std::vector<std::vector<double>>>;  ///< [time][border][node]
 
@@ -49,6 +52,8 @@ using BorderHistory = std::vector<std::vector<std::vector<double>>>;  ///< [time
 BorderHistory published_border_history(int n, int steps);
 /// The same by the positive scheme.
 BorderHistory positive_border_history(int n, int steps);
+/// Liquid of the borders at each of those times [m³].
+std::vector<double> border_liquid(const BorderHistory& history);
 /// How far the run with n edges is from the one with 2n edges, on the nodes of the coarser.
 BorderError border_difference(const BorderHistory& coarse, const BorderHistory& fine);
 

@@ -36,5 +36,9 @@ StudyRun film_rim;
 StudyRun film_corner;
 StudyRun fig15_drainage;
 StudyRun film_meshes;
+StudyRun border_table3;
+StudyRun border_table4;
+StudyRun lamella_table1;
+StudyRun lamella_table2;
 
 }  // namespace spume::verification

@@ -63,6 +63,7 @@ interface = "viim"
 epsilon = 2
 dynamics = "quasistatic"
 [drainage]
+scheme = "paper"
 max_time = 33
 tolerance = 0.01
 max_step = 2

@@ -25,6 +25,14 @@ TEST(BorderFlux, is_zero_exactly_where_the_border_is_hydrostatic) {
   EXPECT_NEAR(border_flux(a, b, link, soap).value, 0, 1e-13 * std::abs(free_flux));
 }
 
+TEST(BorderFlux, of_tension_alone_is_the_integral_of_the_root_however_much_the_area_varies) {
+  const BorderLink level{{0, 1}, 2e-4, 0};
+  const double a = 1e-8, b = 7e-8, c1 = border_tension(0.034);
+  const double integral = 2.0 / 3.0 * (std::pow(b, 1.5) - std::pow(a, 1.5));  // of √λ dλ
+  const double exact = -border_flow / 1e-3 * c1 * integral / 2e-4;
+  EXPECT_NEAR(border_flux(a, b, level, soap).value, exact, 1e-14 * std::abs(exact));
+}
+
 TEST(BorderFlux, of_a_uniform_vertical_border_is_the_flow_under_gravity) {
   const BorderLink downwards{{0, 1}, 1e-4, 9.8e-4};
   const double lambda = 3e-8, exact = border_flow / 1e-3 * lambda * lambda * 1000 * 9.8;
