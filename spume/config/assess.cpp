@@ -7,7 +7,9 @@
 #include <numbers>
 
 #include "spume/config/text.hpp"
+#include "spume/mesh/measure.hpp"
 #include "spume/simulation/cluster.hpp"
+#include "spume/simulation/film_source.hpp"
 #include "spume/simulation/labels.hpp"
 
 namespace spume::config {
@@ -41,11 +43,23 @@ std::vector<flow::StepLimit> step_limits(const Case& run_case, double h, double 
            fmt::format("advection, where the gas moves at {:.2g} m/s as after a rupture", speed)}};
 }
 
+/// Of films that are there already.
+FoamEstimate estimate_films(const simulation::FilmsSource& source, const simulation::InitialFoam& start) {
+  const auto sourced = simulation::load_films(source, start.lamella_half_thickness, start.border_area);
+  FoamEstimate of_films;
+  of_films.film_area = mesh::film_area(sourced.films);
+  for (const double length : mesh::border_lengths(sourced.films, sourced.topology))
+    of_films.border_length += length;
+  for (const double volume : simulation::volumes_of(sourced.films)) of_films.gas_volume += volume;
+  return of_films;
+}
+
 FoamEstimate estimate(const Case& run_case, const std::vector<BubbleShape>& bubbles) {
   const grid::Box& box = run_case.box;
   const auto& foam = run_case.foam;
   if (foam.lattice) return estimate_full_box(static_cast<int>(bubbles.size()), box);
   if (foam.labels) return estimate_labels(simulation::load_labels(*foam.labels, box), box);
+  if (foam.films) return estimate_films(*foam.films, foam);
   FoamEstimate of_bubbles = estimate_foam(bubbles, box);
   if (foam.membrane) {
     const Vec3 n = normalized(foam.membrane->normal);
