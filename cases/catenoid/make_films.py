@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Writes a catenoid as films.vtp: the form of file that [foam.films] reads, with nothing but the standard library.
 
-The film hangs between two rings of 8 mm radius about the axis z; below it is phase 1, outside it phase 0.
+The film hangs between two rings of 2 mm radius about the axis z; below it is phase 1, outside it phase 0.
 """
 import math
 
-AROUND, ALONG = 48, 16  # edges
-NECK = 5.18e-3  # radius of the neck, a [m]: r = a cosh(z/a)
-HALF_HEIGHT = 5.2e-3  # of the film [m]
+AROUND, ALONG = 60, 22  # edges
+NECK = 1.295e-3  # radius of the neck, a [m]: r = a cosh(z/a)
+HALF_HEIGHT = 1.3e-3  # of the film [m]
 HALF_THICKNESS = 5e-6  # eta [m]
 
 points = []
@@ -28,7 +28,7 @@ for j in range(ALONG):
 
 
 def array(name, values, kind="Float64", extra=""):
-    text = " ".join(repr(v) if kind == "Float64" else str(v) for v in values)
+    text = " ".join(f"{v:.6g}" if kind == "Float64" else str(v) for v in values)
     return f'<DataArray type="{kind}" Name="{name}" format="ascii"{extra}>{text}</DataArray>\n'
 
 
