@@ -7,7 +7,9 @@
 #include <numbers>
 
 #include "spume/config/text.hpp"
+#include "spume/mesh/measure.hpp"
 #include "spume/simulation/cluster.hpp"
+#include "spume/simulation/film_source.hpp"
 #include "spume/simulation/labels.hpp"
 
 namespace spume::config {
@@ -41,11 +43,23 @@ std::vector<flow::StepLimit> step_limits(const Case& run_case, double h, double 
            fmt::format("advection, where the gas moves at {:.2g} m/s as after a rupture", speed)}};
 }
 
+/// Of films that are there already.
+FoamEstimate estimate_films(const simulation::FilmsSource& source, const simulation::InitialFoam& start) {
+  const auto sourced = simulation::load_films(source, start.lamella_half_thickness, start.border_area);
+  FoamEstimate of_films;
+  of_films.film_area = mesh::film_area(sourced.films);
+  for (const double length : mesh::border_lengths(sourced.films, sourced.topology))
+    of_films.border_length += length;
+  for (const double volume : simulation::volumes_of(sourced.films)) of_films.gas_volume += volume;
+  return of_films;
+}
+
 FoamEstimate estimate(const Case& run_case, const std::vector<BubbleShape>& bubbles) {
   const grid::Box& box = run_case.box;
   const auto& foam = run_case.foam;
   if (foam.lattice) return estimate_full_box(static_cast<int>(bubbles.size()), box);
   if (foam.labels) return estimate_labels(simulation::load_labels(*foam.labels, box), box);
+  if (foam.films) return estimate_films(*foam.films, foam);
   FoamEstimate of_bubbles = estimate_foam(bubbles, box);
   if (foam.membrane) {
     const Vec3 n = normalized(foam.membrane->normal);
@@ -110,6 +124,38 @@ std::string duration_text(double seconds) {
   return fmt::format("{:.0f} days", seconds / 86400);
 }
 
+using Rows = std::vector<std::vector<std::string>>;
+
+void add_grid(const Assessment& a, const Index3& n, Rows& rows) {
+  rows.push_back({"grid", fmt::format("{} × {} × {} cells of h = {:.4g} m", n.i, n.j, n.k, a.h)});
+  rows.push_back(
+      {"bubbles", fmt::format("{}; the smallest is {:.3g} m across, {:.1f} h; the mean {:.3g} m", a.n_bubbles,
+                              a.smallest_diameter, a.smallest_diameter / a.h, a.mean_diameter)});
+  for (const auto& limit : a.step_limits)
+    rows.push_back({"time step", fmt::format("≤ {:.3g} s  {}", limit.dt, limit.reason)});
+  rows.push_back({"", "viscosity sets no limit (Crank–Nicolson); drainage chooses its own steps"});
+  rows.push_back({"Laplace number", fmt::format("{:.3g} of the gas in the mean bubble", a.laplace_number)});
+}
+
+void add_foam(const Assessment& a, Rows& rows) {
+  rows.push_back({"films", fmt::format("about {:.3g} m², borders about {:.3g} m, gas {:.3g} m³",
+                                       a.foam.film_area, a.foam.border_length, a.foam.gas_volume)});
+  rows.push_back({"liquid", fmt::format("about {:.2g} m³, {:.2g} % of the gas", a.liquid_volume,
+                                        100 * a.liquid_fraction)});
+  rows.push_back(
+      {"border radius", fmt::format("{:.3g} m, {:.1f} % of the radius of the smallest bubble",
+                                    a.border_radius, 200 * a.border_radius / a.smallest_diameter)});
+}
+
+void add_cost(const Assessment& a, Rows& rows) {
+  const double dt = a.step_limits.front().dt;
+  rows.push_back({"memory", "about " + bytes_text(a.memory)});
+  rows.push_back({"cost", fmt::format("about {} of one core for each millisecond of rearrangement ({:.0f} "
+                                      "steps of {}); drainage is extra",
+                                      duration_text(1e-3 / dt * a.seconds_per_step), std::ceil(1e-3 / dt),
+                                      duration_text(a.seconds_per_step))});
+}
+
 }  // namespace
 
 Assessment assess(const Case& run_case, const std::vector<BubbleShape>& bubbles) {
@@ -126,15 +172,18 @@ Assessment assess(const Case& run_case, const std::vector<BubbleShape>& bubbles)
   a.n_bubbles = static_cast<int>(bubbles.size());
   a.smallest_diameter = smallest_diameter(bubbles);
   a.mean_diameter = mean_diameter(bubbles);
-  a.step_limits = step_limits(run_case, a.h, a.mean_diameter);
+  if (!run_case.foam.films) a.step_limits = step_limits(run_case, a.h, a.mean_diameter);
   a.laplace_number = 2 * sigma * rho * a.mean_diameter / (mu * mu);
   a.foam = estimate(run_case, bubbles);
   a.liquid_volume =
-      2 * run_case.foam.lamella_half_thickness * a.foam.film_area + lambda * a.foam.border_length;
+      run_case.foam.films
+          ? simulation::load_films(*run_case.foam.films, run_case.foam.lamella_half_thickness, lambda)
+                .liquid.total()
+          : 2 * run_case.foam.lamella_half_thickness * a.foam.film_area + lambda * a.foam.border_length;
   a.liquid_fraction = a.liquid_volume / a.foam.gas_volume;
   a.border_radius = std::sqrt(lambda / (std::numbers::sqrt3 - std::numbers::pi / 2));
   estimate_cost(a, run_case.rearrangement.interface == Interface::Viim);
-  warn_of_grid(a);
+  if (!run_case.foam.films) warn_of_grid(a);
   warn_of_liquid(a, run_case);
   warn_of_pockets(a, run_case);
   if (run_case.rearrangement.interface == Interface::Viim &&
@@ -144,28 +193,11 @@ Assessment assess(const Case& run_case, const std::vector<BubbleShape>& bubbles)
 }
 
 std::string report(const Assessment& a, const Case& run_case) {
-  const Index3& n = run_case.box.cells;
-  std::vector<std::vector<std::string>> rows{
-      {"grid", fmt::format("{} × {} × {} cells of h = {:.4g} m", n.i, n.j, n.k, a.h)},
-      {"bubbles", fmt::format("{}; the smallest is {:.3g} m across, {:.1f} h; the mean {:.3g} m", a.n_bubbles,
-                              a.smallest_diameter, a.smallest_diameter / a.h, a.mean_diameter)}};
-  for (const auto& limit : a.step_limits)
-    rows.push_back({"time step", fmt::format("≤ {:.3g} s  {}", limit.dt, limit.reason)});
-  rows.push_back({"", "viscosity sets no limit (Crank–Nicolson); drainage chooses its own steps"});
-  rows.push_back({"Laplace number", fmt::format("{:.3g} of the gas in the mean bubble", a.laplace_number)});
-  rows.push_back({"films", fmt::format("about {:.3g} m², borders about {:.3g} m, gas {:.3g} m³",
-                                       a.foam.film_area, a.foam.border_length, a.foam.gas_volume)});
-  rows.push_back({"liquid", fmt::format("about {:.2g} m³, {:.2g} % of the gas", a.liquid_volume,
-                                        100 * a.liquid_fraction)});
-  rows.push_back(
-      {"border radius", fmt::format("{:.3g} m, {:.1f} % of the radius of the smallest bubble",
-                                    a.border_radius, 200 * a.border_radius / a.smallest_diameter)});
-  const double dt = a.step_limits.front().dt;
-  rows.push_back({"memory", "about " + bytes_text(a.memory)});
-  rows.push_back({"cost", fmt::format("about {} of one core for each millisecond of rearrangement ({:.0f} "
-                                      "steps of {}); drainage is extra",
-                                      duration_text(1e-3 / dt * a.seconds_per_step), std::ceil(1e-3 / dt),
-                                      duration_text(a.seconds_per_step))});
+  const bool on_grid = !run_case.foam.films;
+  Rows rows;
+  if (on_grid) add_grid(a, run_case.box.cells, rows);
+  add_foam(a, rows);
+  if (on_grid) add_cost(a, rows);
   std::string text = aligned(rows);
   for (const auto& warning : a.warnings) text += "warning: " + warning + "\n";
   return text;

@@ -152,13 +152,39 @@ void check_membrane(const Case& run_case, const Entries& entries, Problems& prob
                              axis_names[across], membrane.point[across], margin_cells, low, high));
 }
 
+/// Films of a file only drain: no potentials of phases stand behind them, and no grid.
+void check_films(const Case& run_case, const Entries& entries, Problems& problems) {
+  const auto& foam = run_case.foam;
+  if (foam.films->file.empty())
+    problems.add(entries.place_of("foam.films"), "[foam.films] has no 'file' (the films)");
+  if (!foam.bubble.empty() || foam.cluster || foam.lattice || foam.labels || foam.membrane)
+    problems.add(entries.place_of("foam.films"),
+                 "[foam.films] gives all films: no bubbles, lattice, labels or membrane can be given");
+  if (run_case.cycle.stages != std::vector{simulation::Stage::Drain})
+    problems.add(entries.place_of("cycle.stages"),
+                 "[foam.films] has films without a grid: they can only drain, 'cycle.stages' must be "
+                 "[\"drain\"]");
+  if (foam.equilibrate || !foam.remove_lamella.empty())
+    problems.add(entries.place_of("foam"),
+                 "[foam.films] are drained as they are: no 'equilibrate' and no 'remove_lamella'");
+  for (const auto boundary : run_case.box.boundary)
+    if (boundary == grid::Boundary::Periodic) {
+      problems.add(
+          entries.place_of("domain.boundary"),
+          "[foam.films] do not go on through periodic faces: leave [domain] out, or make it \"wall\"");
+      return;
+    }
+}
+
 /// A foam starts in one way; a membrane goes with bubbles of a list or cluster.
 void check_one_start(const Case& run_case, const Entries& entries, Problems& problems) {
   const auto& foam = run_case.foam;
+  if (foam.films) return check_films(run_case, entries, problems);
   const bool has_bubbles = !foam.bubble.empty() || foam.cluster;
   if (!has_bubbles && !foam.lattice && !foam.labels)
-    problems.add(entries.place_of("foam.bubble"),
-                 "no bubbles: give [[foam.bubble]], [foam.cluster], [foam.lattice] or [foam.labels]");
+    problems.add(
+        entries.place_of("foam.bubble"),
+        "no bubbles: give [[foam.bubble]], [foam.cluster], [foam.lattice], [foam.labels] or [foam.films]");
   const bool others = has_bubbles || foam.membrane;
   if (foam.lattice && (others || foam.labels))
     problems.add(entries.place_of("foam.lattice"),
@@ -202,7 +228,7 @@ void cross_check(const Case& run_case, const Entries& entries, const std::vector
     problems.add(entries.place_of("rearrangement.interface"),
                  "\"viim\" needs films that stay four cells away from every face of the box: not a "
                  "[foam.lattice] or a [foam.membrane]; use \"mesh\"");
-  if (run_case.foam.labels) return;  // only the image tells how many phases there are
+  if (run_case.foam.labels || run_case.foam.films) return;  // only the file tells how many phases there are
   const auto& foam = run_case.foam;
   const int n_bubbles = static_cast<int>(foam.bubble.size()) + (foam.cluster ? foam.cluster->count : 0) +
                         (foam.lattice ? simulation::count_bubbles(*foam.lattice, run_case.box) : 0) +

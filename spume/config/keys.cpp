@@ -80,6 +80,9 @@ simulation::LatticeShape& lattice(Case& c) {
 simulation::LabelsSource& labels(Case& c) {
   return c.foam.labels ? *c.foam.labels : c.foam.labels.emplace();
 }
+simulation::FilmsSource& films(Case& c) {
+  return c.foam.films ? *c.foam.films : c.foam.films.emplace();
+}
 simulation::MembraneShape& membrane(Case& c) {
   return c.foam.membrane ? *c.foam.membrane : c.foam.membrane.emplace();
 }
@@ -179,6 +182,18 @@ Keys labels_and_membrane_keys() {
        "a point of the film"},
       {"foam.membrane.normal", Vector<Case>{[](Case& c) -> Vec3& { return membrane(c).normal; }}, "", "",
        "direction across the film, along x, y or z; the phase above is the last one"},
+  };
+}
+
+Keys films_keys() {
+  using simulation::FilmsSource;
+  return {
+      {"foam.films.file", Text<Case>{[](Case& c) -> std::string& { return films(c).file; }}, "", "",
+       "vtp of the form of films.pvd; a relative name starts at the folder of the case file"},
+      {"foam.films.liquid",
+       choice<Case, FilmsSource::Liquid>({"file", "uniform"},
+                                         [](Case& c) -> FilmsSource::Liquid& { return films(c).liquid; }),
+       "", "", "file: η and λ of the file; uniform: those of [foam] everywhere"},
   };
 }
 
@@ -302,6 +317,8 @@ const std::vector<Section>& sections() {
        [](const Case& c) { return c.foam.labels.has_value(); }, [](Case& c) { labels(c); }},
       {"foam.membrane", "a film across the box, through periodic sides; bubbles may sit on it",
        [](const Case& c) { return c.foam.membrane.has_value(); }, [](Case& c) { membrane(c); }},
+      {"foam.films", "films of a file, to drain as they are: needs no [domain] and stages [\"drain\"]",
+       [](const Case& c) { return c.foam.films.has_value(); }, [](Case& c) { films(c); }},
       {"rearrangement", "bubbles and films move until they are near equilibrium"},
       {"drainage", "liquid drains from the films"},
       {"rupture", "the thinnest film breaks"},
@@ -316,7 +333,7 @@ const std::vector<Key<Case>>& case_keys() {
   static const Keys all = [] {
     Keys keys;
     for (const Keys& part :
-         {box_keys(), material_keys(), foam_keys(), lattice_keys(), labels_and_membrane_keys(),
+         {box_keys(), material_keys(), foam_keys(), lattice_keys(), labels_and_membrane_keys(), films_keys(),
           rearrangement_keys(), drainage_keys(), rupture_keys(), cycle_keys(), output_keys()})
       keys.insert(keys.end(), part.begin(), part.end());
     return keys;

@@ -131,20 +131,29 @@ void read_bubbles(const Entry& entry, Case& run_case, std::vector<Place>& places
   }
 }
 
-/// A relative name of an image starts at the folder of the case file, or, on the command line, where the
+/// A relative name of a file starts at the folder of the case file, or, on the command line, where the
 /// program runs; from now on it is absolute, so that the resolved case can stand in any folder.
-void resolve_labels_file(const Entries& entries, const std::string& source, Case& run_case) {
-  const Entry* entry = entries.find("foam.labels.file");
+void resolve_file(const Entries& entries, const std::string& key, const std::string& source,
+                  std::string& name) {
+  const Entry* entry = entries.find(key);
   if (entry == nullptr) return;
-  const std::filesystem::path file = run_case.foam.labels->file;
+  const std::filesystem::path file = name;
   const auto folder =
       entry->place.line == 0 ? std::filesystem::path() : std::filesystem::path(source).parent_path();
-  run_case.foam.labels->file = std::filesystem::absolute(folder / file).lexically_normal().string();
+  name = std::filesystem::absolute(folder / file).lexically_normal().string();
 }
 
-void check_required(const Entries& entries, Problems& problems) {
+/// Films of a file need no grid; the least one stands in for it, without a periodic direction.
+void leave_out_domain(Case& run_case) {
+  const int n = 16;
+  run_case.box = {
+      {0, 0, 0}, {1, 1, 1}, {n, n, n}, {grid::Boundary::Wall, grid::Boundary::Wall, grid::Boundary::Wall}};
+}
+
+void check_required(const Case& run_case, const Entries& entries, Problems& problems) {
   for (const auto& key : case_keys())
-    if (key.required && entries.find(key.name) == nullptr)
+    if (key.required && !(run_case.foam.films && section_of(key.name) == "domain") &&
+        entries.find(key.name) == nullptr)
       problems.add(entries.place_of(key.name), "missing key '" + key.name + "' (" + key.meaning + ")");
 }
 
@@ -171,6 +180,7 @@ Case parse_case(const std::string& text, const std::string& source, const std::v
   std::vector<Place> bubble_places;
   for (const auto& section : sections())
     if (section.create != nullptr && entries.has_section(section.name)) section.create(run_case);
+  if (run_case.foam.films) leave_out_domain(run_case);
   for (const auto& [name, entry] : entries.all()) {
     if (name == bubble_list) {
       read_bubbles(entry, run_case, bubble_places, problems);
@@ -181,8 +191,9 @@ Case parse_case(const std::string& text, const std::string& source, const std::v
       problems.add(entry.key_place, not_a_key(name, *entry.value));
     }
   }
-  if (run_case.foam.labels) resolve_labels_file(entries, source, run_case);
-  check_required(entries, problems);
+  if (run_case.foam.labels) resolve_file(entries, "foam.labels.file", source, run_case.foam.labels->file);
+  if (run_case.foam.films) resolve_file(entries, "foam.films.file", source, run_case.foam.films->file);
+  check_required(run_case, entries, problems);
   // What contradicts itself can only be told from values that are right.
   if (problems.none()) cross_check(run_case, entries, bubble_places, problems);
   problems.throw_if_any();

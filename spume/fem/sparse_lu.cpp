@@ -4,15 +4,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "spume/base/contract.hpp"
+#include "spume/fem/frontal_lu.hpp"
 
 namespace spume::fem {
 
-/// KLU needs no BLAS, and on the matrices of films (two rings of neighbours, up to some 10⁴ rows) it is
-/// faster than the supernodal codes.
+namespace {
+
+bool is_symmetric(std::span<const int> column_offset, std::span<const int> row) {
+  for (std::size_t j = 0; j + 1 < column_offset.size(); ++j)
+    for (int p = column_offset[j]; p < column_offset[j + 1]; ++p)
+      if (!std::binary_search(row.begin() + column_offset[row[p]], row.begin() + column_offset[row[p] + 1],
+                              static_cast<int>(j)))
+        return false;
+  return true;
+}
+
+}  // namespace
+
+/// Small matrices by KLU. Large ones with a symmetric pattern, those of films, by fronts, which take a fifth
+/// of the time at 1,400 rows and a tenth at 6,000 and more; where they find no pivot, KLU does.
 struct SparseLu::Factors {
+  std::optional<FrontalLu> fronts;
+  bool by_fronts = false;
   std::vector<int> column_offset, row;
   std::vector<double> value;
   klu_common common;
@@ -49,6 +66,8 @@ SparseLu::SparseLu(std::span<const int> column_offset, std::span<const int> row)
   f.symbolic = klu_analyze(static_cast<int>(column_offset.size()) - 1, f.column_offset.data(), f.row.data(),
                            &f.common);
   expects(f.symbolic != nullptr, "a sparse pattern with every diagonal entry");
+  constexpr std::size_t large = 300;  // rows
+  if (column_offset.size() > large && is_symmetric(column_offset, row)) f.fronts.emplace(column_offset, row);
 }
 
 SparseLu::~SparseLu() = default;
@@ -59,6 +78,8 @@ bool SparseLu::factorise(std::span<const double> value) {
   Factors& f = *factors_;
   expects(value.size() == f.value.size(), "one value per entry of the pattern");
   if (!std::all_of(value.begin(), value.end(), [](double v) { return std::isfinite(v); })) return false;
+  f.by_fronts = f.fronts && f.fronts->factorise(value);
+  if (f.by_fronts) return true;
   std::copy(value.begin(), value.end(), f.value.begin());
   if (f.refactorise()) return true;
   klu_free_numeric(&f.numeric, &f.common);
@@ -68,6 +89,7 @@ bool SparseLu::factorise(std::span<const double> value) {
 
 void SparseLu::solve(std::span<double> right) {
   Factors& f = *factors_;
+  if (f.by_fronts) return f.fronts->solve(right);
   expects(f.numeric != nullptr, "factorise() before solve()");
   klu_solve(f.symbolic, f.numeric, static_cast<int>(right.size()), 1, right.data(), &f.common);
 }

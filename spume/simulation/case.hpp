@@ -44,6 +44,15 @@ struct LabelsSource {
   } placement = Placement::Box;
 };
 
+/// Films from a file of the series films.pvd, or of that form, to drain as they are. Key section [foam.films].
+struct FilmsSource {
+  std::string file;
+  enum class Liquid {
+    File,    ///< η and λ are those of the file
+    Uniform  ///< those of [foam] everywhere
+  } liquid = Liquid::File;
+};
+
 /// A flat film across the box, which splits the outside: below it is phase 0, above it, where the normal
 /// points, the last phase, N + 1. Bubbles may sit on it. Its edges close on themselves through periodic
 /// faces.
@@ -62,6 +71,7 @@ struct InitialFoam {
   std::optional<ClusterShape> cluster;
   std::optional<LatticeShape> lattice;
   std::optional<LabelsSource> labels;
+  std::optional<FilmsSource> films;
   std::optional<MembraneShape> membrane;
 };
 

@@ -9,16 +9,18 @@
 #include "spume/mesh/measure.hpp"
 #include "spume/mesh/volume_constraint.hpp"
 #include "spume/meshing/mesh_films.hpp"
+#include "spume/simulation/film_source.hpp"
 #include "spume/simulation/film_update.hpp"
 
 namespace spume::simulation {
 
 namespace {
 
-/// Lamellae smaller than a few cells are left-overs of T1s; what is thinnest there says nothing.
-double smallest_area(const grid::Grid& grid) {
+/// Lamellae smaller than a few cells are left-overs of T1s; what is thinnest there says nothing. Films from a
+/// file know no cells, and all count.
+double smallest_area(const grid::Grid& grid, const Case& run_case) {
   constexpr double cells = 4;
-  return cells * grid.h() * grid.h();
+  return run_case.foam.films ? 0 : cells * grid.h() * grid.h();
 }
 
 const char* name(mesh::VertexKind kind) {
@@ -70,26 +72,7 @@ std::string describe(const drainage::DrainageOutcome& outcome, const Weakest& we
 }  // namespace
 
 state::FilmNetwork network_of(const state::Foam& foam) {
-  state::FilmNetwork network;
-  network.mesh = foam.films;
-  network.topology = mesh::build_topology(foam.films);
-  const auto& topology = network.topology;
-  const auto area = mesh::film_dof_areas(network.mesh, topology);
-  network.half_thickness.resize(area.size());
-  for (std::size_t d = 0; d < area.size(); ++d)
-    network.half_thickness[d] = foam.liquid.lamella_volume[d] / (2 * area[d]);
-  network.curvature_squared = meshing::curvature_squared(network.mesh, topology);
-
-  std::vector<double> volume(network.mesh.position.size(), 0.0), length(volume.size(), 0.0);
-  const auto dof_length = mesh::border_dof_lengths(network.mesh, topology);
-  for (std::size_t d = 0; d < topology.border_dof.size(); ++d) {
-    volume[topology.border_dof[d].vertex] += foam.liquid.border_volume[d];
-    length[topology.border_dof[d].vertex] += dof_length[d];
-  }
-  network.border_area.assign(volume.size(), 0.0);
-  for (std::size_t v = 0; v < volume.size(); ++v)
-    if (length[v] > 0) network.border_area[v] = volume[v] / length[v];
-  return network;
+  return network_of(foam.films, foam.liquid);
 }
 
 void store(const state::FilmNetwork& network, state::FilmLiquid& liquid) {
@@ -104,7 +87,7 @@ void store(const state::FilmNetwork& network, state::FilmLiquid& liquid) {
 
 std::optional<Weakest> drain_films(const grid::Grid& grid, const Case& run_case, RunState& run,
                                    Witness& witness) {
-  mesh_films(grid, run_case, run, witness);
+  if (!run_case.foam.films) mesh_films(grid, run_case, run, witness);
   for (auto& component : run.foam.gas.velocity.components) component.fill(0);
   run.foam.gas.pressure.fill(0);
 
@@ -113,7 +96,7 @@ std::optional<Weakest> drain_films(const grid::Grid& grid, const Case& run_case,
   drainage::DrainageParameters parameters = run_case.drainage;
   parameters.max_time = std::min(parameters.max_time, run_case.cycle.end_time - start);
   const auto criterion = [&](const state::FilmNetwork& n) {
-    return rupture::thinnest_point(n, run_case.rupture, smallest_area(grid));
+    return rupture::thinnest_point(n, run_case.rupture, smallest_area(grid, run_case));
   };
   run.next_frame = start;
   const auto on_step = [&](const drainage::DrainageProgress& progress, const state::FilmNetwork& now) {
@@ -148,7 +131,7 @@ std::optional<Weakest> weakest_lamella(const grid::Grid& grid, const Case& run_c
                                        const state::Foam& foam) {
   const state::FilmNetwork network = network_of(foam);
   return weakest_of(network.topology,
-                    rupture::thinnest_point(network, run_case.rupture, smallest_area(grid)));
+                    rupture::thinnest_point(network, run_case.rupture, smallest_area(grid, run_case)));
 }
 
 }  // namespace spume::simulation

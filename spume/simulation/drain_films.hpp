@@ -8,7 +8,7 @@
 
 namespace spume::simulation {
 
-/// η and λ of a foam's films: thickness from the liquid of each dof, k = k₁² + k₂² from the mesh.
+/// network_of() of film_source.hpp for a foam.
 state::FilmNetwork network_of(const state::Foam& foam);
 /// The liquid of a drained network back as volumes on the same mesh.
 void store(const state::FilmNetwork& network, state::FilmLiquid& liquid);
@@ -19,7 +19,7 @@ struct Weakest {
   state::ThinPoint point;
 };
 
-/// Part C of the paper: meshes the films at rest, drains them, and says which lamella ruptures; none when the
+/// Part C of the paper: meshes the films at rest (films from a file stay as they are), drains them, and says which lamella ruptures; none when the
 /// stage's or the run's time is up first. The gas is at rest afterwards: seconds of drainage outlast its
 /// motion. Collective. Throws Interrupted when the user wants to stop: the checkpoint of the stage's start
 /// stands.

@@ -7,6 +7,7 @@
 #include "spume/base/error.hpp"
 #include "spume/mesh/phase_frames.hpp"
 #include "spume/simulation/equilibrate.hpp"
+#include "spume/simulation/film_source.hpp"
 #include "spume/simulation/start.hpp"
 #include "spume/simulation/tear.hpp"
 
@@ -56,11 +57,28 @@ mesh::FilmMesh films_of(const Case& run_case, const grid::Grid& grid, state::Pha
   return std::move(construction.films);
 }
 
+/// Films and liquid of a file.
+void take_films(const FilmsSource& source, const InitialFoam& start, state::Foam& foam,
+                std::vector<state::Event>& events) {
+  SourcedFilms sourced = load_films(source, start.lamella_half_thickness, start.border_area);
+  foam.phases.target_volume = volumes_of(sourced.films);
+  foam.films = std::move(sourced.films);
+  foam.liquid = std::move(sourced.liquid);
+  if (sourced.n_free_edges > 0)
+    events.push_back(
+        {0, "films end",
+         fmt::format("at {} edges of a single triangle; nothing flows through them", sourced.n_free_edges)});
+}
+
 }  // namespace
 
 void make_initial_foam(const Case& run_case, state::Foam& foam, std::vector<state::Event>& events) {
   const grid::Grid& grid = foam.gas.pressure.grid();
   const auto& start = run_case.foam;
+  if (start.films) {
+    take_films(*start.films, start, foam, events);
+    return;
+  }
   foam.films = films_of(run_case, grid, foam.phases, events);
   const auto wet = [&] {
     foam.liquid = transport::uniform_liquid(foam.films, mesh::build_topology(foam.films),

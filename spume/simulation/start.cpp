@@ -8,6 +8,7 @@
 
 #include "spume/base/error.hpp"
 #include "spume/simulation/cluster.hpp"
+#include "spume/simulation/film_source.hpp"
 #include "spume/simulation/labels.hpp"
 
 namespace spume::simulation {
@@ -107,6 +108,25 @@ std::vector<BubbleShape> spheres_of(const LabelsSource& source, const grid::Box&
   return spheres;
 }
 
+std::vector<BubbleShape> spheres_of(const FilmsSource& source, const InitialFoam& start) {
+  const SourcedFilms sourced = load_films(source, start.lamella_half_thickness, start.border_area);
+  const std::vector<double> volume = volumes_of(sourced.films);
+  std::vector<Vec3> sum(volume.size());
+  std::vector<double> count(volume.size(), 0.0);
+  for (std::size_t v = 0; v < sourced.films.position.size(); ++v)
+    for (mesh::Phase p : sourced.topology.vertex_phases[v]) {
+      sum[p] += sourced.films.position[v];
+      count[p] += 1;
+    }
+  std::vector<BubbleShape> spheres;
+  for (std::size_t p = 1; p < volume.size(); ++p) {
+    if (count[p] == 0) continue;
+    const double radius = sphere_radius(volume[p]);
+    spheres.push_back({sum[p] / count[p], {radius, radius, radius}});
+  }
+  return spheres;
+}
+
 std::vector<BubbleShape> spheres_of(const LatticeShape& lattice, const grid::Box& box) {
   std::vector<BubbleShape> spheres;
   for (const auto& bubble : make_lattice(lattice, box)) {
@@ -128,6 +148,7 @@ Start start_of(const Case& run_case) {
 std::vector<BubbleShape> bubbles_of(const Case& run_case) {
   if (run_case.foam.lattice) return spheres_of(*run_case.foam.lattice, run_case.box);
   if (run_case.foam.labels) return spheres_of(*run_case.foam.labels, run_case.box);
+  if (run_case.foam.films) return spheres_of(*run_case.foam.films, run_case.foam);
   std::vector<BubbleShape> bubbles = run_case.foam.bubble;
   if (run_case.foam.cluster) {
     const auto cluster = make_cluster(*run_case.foam.cluster, run_case.box);
@@ -135,8 +156,8 @@ std::vector<BubbleShape> bubbles_of(const Case& run_case) {
   }
   if (bubbles.empty())
     throw InputError(
-        "the case has no bubble: give [[foam.bubble]] entries or a section [foam.cluster], [foam.lattice] or "
-        "[foam.labels]");
+        "the case has no bubble: give [[foam.bubble]] entries or a section [foam.cluster], [foam.lattice], "
+        "[foam.labels] or [foam.films]");
   check_inside(bubbles, run_case.box);
   return bubbles;
 }

@@ -145,7 +145,7 @@ void spherical_film(const parallel::Communicator& /*communicator*/, Scale scale,
   for (const double up : {1.0, -1.0}) {
     const std::string where = up > 0 ? "top" : "bottom";
     double coarser = 0;
-    for (const int n : scale == Scale::Full ? std::vector{12, 24, 48} : std::vector{6, 12}) {
+    for (const int n : scale == Scale::Full ? std::vector{9, 18, 36} : std::vector{6, 12}) {
       const double error = error_of_apex(n, up);
       report.told(fmt::format("{}, n = {}: relative error", where, n), error, "η₀ (1 ± 4ρgη₀²t/(3μR))^(-1/2)",
                   0.0);

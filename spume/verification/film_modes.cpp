@@ -96,7 +96,7 @@ void film_modes_flat(const parallel::Communicator& /*communicator*/, Scale scale
 
 void film_modes_sphere(const parallel::Communicator& /*communicator*/, Scale scale, Report& report) {
   report.note("a sphere of 1 mm, 20 n² triangles and 3 n steps; rate (σ η₀³/3μ R⁴) (l−1) l (l+1) (l+2)");
-  const auto meshes = scale == Scale::Full ? std::vector{12, 24, 48} : std::vector{6, 12};
+  const auto meshes = scale == Scale::Full ? std::vector{9, 18, 36} : std::vector{6, 12};
   const Vec3 axis = normalized(Vec3{1, 2, 3});
   for (const int l : {2, 3}) {
     const Mode mode{
@@ -112,7 +112,7 @@ void film_modes_cylinder(const parallel::Communicator& /*communicator*/, Scale s
   report.note(
       "an open tube of radius R = 1 mm and length 4 R, n rings; rate (σ η₀³/3μ) s (s − 1/R²), "
       "s = m²/R² + q²; a mode with s R² < 1 grows");
-  const auto meshes = scale == Scale::Full ? std::vector{16, 32, 64} : std::vector{8, 16};
+  const auto meshes = scale == Scale::Full ? std::vector{12, 24, 48} : std::vector{8, 16};
   const double length = 4 * size;
   for (const auto& [m, p] : {std::pair(0, 1), std::pair(1, 2), std::pair(2, 1)}) {
     const double q = pi * p / length;

@@ -117,55 +117,66 @@ class Builder {
     }
   }
 
-  /// Rows over a triangle whose sides are bent to the three outer borders; it lies in the plane into which
-  /// the sphere is projected from its point that is nearest to the middle of the cluster.
+  /// A triangle in each corner, and then loops that shrink from the borders to the pole of the sphere and
+  /// become round.
   void add_cap(int a) {
-    std::array<int, 3> corner{};
-    for (int c = 0, n = 0; c < n_bubbles; ++c)
-      if (c != a) corner[n++] = c;
     const Vec3 up = normalized(centre_[a]);
-    const auto project = [&](const Vec3& x) {
-      const Vec3 r = x - centre_[a];
-      return (r - dot(r, up) * up) / (1 + dot(r, up));
-    };
-    const auto lift = [&](const Vec3& y) {
-      const double square = norm_squared(y);
-      return centre_[a] + (2 * y + (1 - square) * up) / (1 + square);
-    };
-    const std::array<std::vector<int>, 3> side{outer(corner[0], corner[1]), outer(corner[1], corner[2]),
-                                               outer(corner[2], corner[0])};
-    std::array<Vec3, 3> at_corner;
-    for (int c = 0; c < 3; ++c) at_corner[c] = project(junction(corner[c]));
-    const auto inside = [&](const std::array<double, 3>& weight) {
-      Vec3 y;
-      for (int c = 0; c < 3; ++c) {
-        const int next = (c + 1) % 3;
-        y += weight[c] * at_corner[c];
-        const double sum = weight[c] + weight[next];
-        if (!(sum > 0)) continue;
-        const double s = weight[next] / sum;
-        const Vec3 bend =
-            project(on_sphere(on_outer(side[c], s), a)) - (1 - s) * at_corner[c] - s * at_corner[next];
-        y += sum * sum * bend;
+    std::vector<int> loop = loop_around(a, up);
+    const mesh::Phase bubble = 1 + a;
+    std::vector<int> near;  // the loop without its corners, closed
+    for (std::size_t j = 0; j + 1 < loop.size(); ++j) {
+      if (j % n_outer_ != 0) {
+        near.push_back(loop[j]);
+        continue;
       }
-      return lift(y);
-    };
-    const int n = n_outer_;
-    std::vector<int> near{side[0].front()};
-    const bool outward = dot(cross(at_corner[1] - at_corner[0], at_corner[2] - at_corner[0]), up) > 0;
-    for (int row = 1; row <= n; ++row) {
-      std::vector<int> far{side[0][row]};
-      for (int j = 1; j < row; ++j)
-        far.push_back(row == n
-                          ? side[1][j]
-                          : add(inside({1 - row / static_cast<double>(n), (row - j) / static_cast<double>(n),
-                                        j / static_cast<double>(n)})));
-      far.push_back(side[2][n - row]);
-      add_band(mesh_, near, far, outward ? 1 + a : 0, outward ? 0 : 1 + a);
+      const int before = loop[j == 0 ? loop.size() - 2 : j - 1];
+      mesh_.triangle.push_back(mesh::make_triangle(before, loop[j], loop[j + 1], bubble, 0));
+    }
+    near.push_back(near.front());
+    double mean = 0;  // polar angle of the border
+    for (std::size_t j = 0; j + 1 < loop.size(); ++j) mean += polar_angle(loop[j], a, up) / (3 * n_outer_);
+    const int rows = std::max(2, static_cast<int>(std::lround(1.1 * mean * n_outer_ / exact_.outer_border)));
+    for (int row = 1; row <= rows; ++row) {
+      const double t = 1 - static_cast<double>(row) / rows;
+      const int pieces =
+          std::max(6, static_cast<int>(std::lround(3 * n_outer_ * std::sin(t * mean) / std::sin(mean))));
+      std::vector<int> far;
+      if (row == rows) {
+        far.push_back(add(centre_[a] + up));
+      } else {
+        for (int j = 0; j < pieces; ++j) {
+          const Vec3 r = on_loop(loop, 3.0 * n_outer_ * (j + 0.5 * (row % 2)) / pieces) - centre_[a];
+          const Vec3 side = normalized(r - dot(r, up) * up);
+          const double border = std::acos(dot(r, up) / norm(r)), angle = t * (t * border + (1 - t) * mean);
+          far.push_back(add(centre_[a] + std::cos(angle) * up + std::sin(angle) * side));
+        }
+        far.push_back(far.front());
+      }
+      add_band(mesh_, far, near, bubble, 0);
       near = std::move(far);
     }
   }
-  Vec3 on_sphere(const Vec3& x, int a) const { return centre_[a] + normalized(x - centre_[a]); }
+  /// The three borders of a cap, against the clock as seen from outside, the first vertex repeated at the
+  /// end.
+  std::vector<int> loop_around(int a, const Vec3& up) const {
+    std::array<int, 3> corner{};
+    for (int c = 0, n = 0; c < n_bubbles; ++c)
+      if (c != a) corner[n++] = c;
+    const Vec3 x = junction(corner[0]), y = junction(corner[1]), z = junction(corner[2]);
+    if (dot(cross(y - x, z - x), up) < 0) std::swap(corner[1], corner[2]);
+    std::vector<int> loop;
+    for (int c = 0; c < 3; ++c) {
+      const std::vector<int> side = outer(corner[c], corner[(c + 1) % 3]);
+      loop.insert(loop.end(), side.begin(), side.end() - 1);
+    }
+    loop.push_back(loop.front());
+    return loop;
+  }
+  Vec3 on_loop(const std::vector<int>& loop, double k) const {
+    const auto first = std::min(static_cast<std::size_t>(k), loop.size() - 2);
+    return at(loop[first]) + (k - static_cast<double>(first)) * (at(loop[first + 1]) - at(loop[first]));
+  }
+  double polar_angle(int v, int a, const Vec3& up) const { return std::acos(dot(at(v) - centre_[a], up)); }
 
   mesh::FilmMesh mesh_;
   std::array<Vec3, n_bubbles> centre_;
