@@ -248,6 +248,12 @@ Keys drainage_keys() {
        "", "", "second order and positive, or the paper's own steps, which the tables of the paper check"},
       {"drainage.max_step", Number<Case>{[](Case& c) -> double& { return c.drainage.max_step; }}, "s", "",
        "longest time step"},
+      {"drainage.edge_at_borders",
+       Number<Case>{[](Case& c) -> double& { return c.meshing.edge_at_borders; }, non_negative()}, "m", "",
+       "edges of the mesh at Plateau borders; 0: by the boundary layer and the grid"},
+      {"drainage.edge_at_junctions",
+       Number<Case>{[](Case& c) -> double& { return c.meshing.edge_at_junctions; }, non_negative()}, "m", "",
+       "edges where borders meet, whose corners drain first; 0: as at borders"},
   };
 }
 

@@ -13,11 +13,6 @@ namespace {
 
 constexpr double least_gain = 1e-3;  // of badness, for a change to be worth it
 
-double angle_at(const Vec3& apex, const Vec3& p, const Vec3& q) {
-  const Vec3 u = p - apex, v = q - apex;
-  return std::atan2(norm(cross(u, v)), dot(u, v));
-}
-
 /// Vertices of the triangles around v but v itself, each once.
 std::vector<int> ring_of(const StarMesh& m, int v) {
   std::vector<int> ring;
@@ -83,6 +78,15 @@ bool LocalChanges::may_flip(const Hinge& e, double& before, double& after) const
   return true;
 }
 
+/// Whether one of the triangles fills the corner of its film at a junction.
+bool LocalChanges::is_filled_corner(const Hinge& e) const {
+  const auto fills = [&](int tip) {
+    return m_.work.kind(tip) == mesh::VertexKind::Junction && m_.is_border_edge(tip, e.a) &&
+           m_.is_border_edge(tip, e.b);
+  };
+  return fills(e.apex) || fills(e.beyond);
+}
+
 void LocalChanges::flip(const Hinge& e) {
   m_.films.triangle[e.left].vertex = {e.a, e.beyond, e.apex};
   m_.films.triangle[e.right].vertex = {e.b, e.apex, e.beyond};
@@ -95,28 +99,53 @@ void LocalChanges::flip(const Hinge& e) {
 bool LocalChanges::flip_if_better(int triangle, int corner) {
   Hinge hinge;
   double before = 0, after = 0;
-  if (!hinge_at(triangle, corner, hinge) || !may_flip(hinge, before, after) || after > before - least_gain)
+  if (!hinge_at(triangle, corner, hinge) || is_filled_corner(hinge) || !may_flip(hinge, before, after) ||
+      after > before - least_gain)
     return false;
   flip(hinge);
   return true;
 }
 
 bool LocalChanges::fill_corner(int triangle, int corner) {
-  constexpr double least_angle = 28;  // [degrees]
   Hinge e;
-  const auto& vertex = m_.films.triangle[triangle].vertex;
-  if (m_.work.kind(vertex[corner]) != mesh::VertexKind::Junction ||
-      m_.work.kind(vertex[(corner + 1) % 3]) != mesh::VertexKind::Film || !hinge_at(triangle, corner, e))
+  const auto vertex = m_.films.triangle[triangle].vertex;
+  const int tip = vertex[corner], inside = vertex[(corner + 1) % 3];
+  if (m_.work.kind(tip) != mesh::VertexKind::Junction || m_.work.kind(inside) != mesh::VertexKind::Film ||
+      m_.work.held[inside] || !hinge_at(triangle, corner, e))
     return false;
-  double before = 0, after = 0;
-  if (!m_.is_border_edge(e.a, e.apex) || !m_.is_border_edge(e.a, e.beyond)) return false;
-  if (!may_flip(e, before, after) || after > badness_of_angle(least_angle)) return false;
-  const Vec3& a = m_.films.position[e.a];
-  const Vec3 b = a + m_.films.edge(e.a, e.b), apex = a + m_.films.edge(e.a, e.apex),
-             beyond = a + m_.films.edge(e.a, e.beyond);
-  if (angle_at(a, apex, beyond) + angle_at(b, apex, beyond) > std::numbers::pi) return false;
-  flip(e);
-  return true;
+  if (!m_.is_border_edge(tip, e.apex) || !m_.is_border_edge(tip, e.beyond) ||
+      m_.n_triangles_between(e.apex, e.beyond) > 0)
+    return false;
+  if (fills_well(e, m_.films.position[inside], -1)) {
+    flip(e);
+    return true;
+  }
+  // The corner's triangle is larger than the two that were there: the vertex between them may have to go.
+  for (int w : ring_of(m_, inside)) {
+    if (m_.work.kind(w) != mesh::VertexKind::Film || m_.has(e.left, w) || m_.has(e.right, w)) continue;
+    if (!keeps_topology(inside, w, m_.n_triangles_between(inside, w))) continue;
+    if (!fills_well(e, m_.films.position[inside] + m_.films.edge(inside, w), w)) continue;
+    collapse(inside, w);
+    e.b = w;
+    flip(e);
+    return true;
+  }
+  return false;
+}
+
+/// Whether one triangle may fill the corner at e.a, with the vertex e.b at `place`, or drawn into `gone`
+/// there if that is not −1.
+bool LocalChanges::fills_well(const Hinge& e, const Vec3& place, int gone) const {
+  constexpr double least_angle = 15;  // [degrees]; moves and repairs that follow make it better
+  const Vec3 tip = m_.films.domain.near(m_.films.position[e.a], place),
+             apex = m_.films.domain.near(m_.films.position[e.apex], place),
+             beyond = m_.films.domain.near(m_.films.position[e.beyond], place);
+  const Vec3 normal = m_.film_normal(e.left) + m_.film_normal(e.right);
+  double worst = std::max(badness({tip, beyond, apex}, normal), badness({place, apex, beyond}, normal));
+  for (int t : m_.star[e.b])
+    if (t != e.left && t != e.right && !(gone >= 0 && m_.has(t, gone)))
+      worst = std::max(worst, badness(m_.corners_with(t, e.b, place), m_.film_normal(t)));
+  return worst <= badness_of_angle(least_angle);
 }
 
 bool LocalChanges::relocate(int v) {
@@ -181,6 +210,21 @@ bool LocalChanges::keeps_lengths(int v, int w) const {
   return true;
 }
 
+void LocalChanges::collapse(int v, int w) {
+  for (int t : m_.star[v]) {
+    if (m_.has(t, w)) {
+      m_.dead[t] = 1;
+      continue;
+    }
+    auto& vertex = m_.films.triangle[t].vertex;
+    std::replace(vertex.begin(), vertex.end(), v, w);
+    m_.star[w].push_back(t);
+  }
+  for (int x : ring_of(m_, w)) drop_dead(x);
+  drop_dead(w);
+  m_.star[v].clear();
+}
+
 bool LocalChanges::collapse_if_better(int v, int w) {
   if (m_.work.kind(v) == mesh::VertexKind::Junction || m_.work.held[v] ||
       !m_.work.phases[w].contains(m_.work.phases[v]))
@@ -198,18 +242,7 @@ bool LocalChanges::collapse_if_better(int v, int w) {
   }
   if (after > before - least_gain) return false;
 
-  for (int t : m_.star[v]) {
-    if (m_.has(t, w)) {
-      m_.dead[t] = 1;
-      continue;
-    }
-    auto& vertex = m_.films.triangle[t].vertex;
-    std::replace(vertex.begin(), vertex.end(), v, w);
-    m_.star[w].push_back(t);
-  }
-  for (int x : ring_of(m_, w)) drop_dead(x);
-  drop_dead(w);
-  m_.star[v].clear();
+  collapse(v, w);
   return true;
 }
 

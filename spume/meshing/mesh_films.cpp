@@ -17,6 +17,7 @@ namespace {
 
 // To be on the film is worth more than a good angle, up to these [degrees]. What is poor at first improves.
 constexpr double least_angle_at_first = 5, least_angle = 22;
+constexpr int sweeps_after_corners = 5;
 
 /// Splits and collapses until edges fit their targets, or nearly.
 void fit_edges(mesh::WorkingMesh& work, const mesh::TargetLength& target, const mesh::Projection& project,
@@ -50,13 +51,15 @@ void move_and_flip(mesh::WorkingMesh& work, const mesh::Projection& project,
 }
 
 Sizes sizes_of(double h, const MeshingParameters& p) {
-  const double layer = p.layer_width > 0 ? 0.5 * p.layer_width / h : p.edge_at_borders;
-  const double at_borders = std::min({std::max(layer, p.finest_at_borders), p.edge_at_borders, p.edge});
-  return {.in_films = p.edge * h,
-          .at_borders = at_borders * h,
-          .at_junctions = at_borders * h,
-          .smallest = p.smallest_edge * h,
-          .grading = p.grading};
+  const double in_films = p.edge * h;
+  const double coarsest = p.coarsest_at_borders * h, finest = std::min(p.finest_at_borders * h, coarsest);
+  double at_borders = p.edge_at_borders;
+  if (!(at_borders > 0))
+    at_borders = p.layer_width > 0 ? std::clamp(0.5 * p.layer_width, finest, coarsest) : coarsest;
+  at_borders = std::min(at_borders, in_films);
+  const double at_junctions =
+      p.edge_at_junctions > 0 ? std::min(p.edge_at_junctions, at_borders) : at_borders;
+  return {in_films, at_borders, at_junctions, p.smallest_edge * h, p.grading};
 }
 
 }  // namespace
@@ -80,7 +83,11 @@ MeshingReport improve(mesh::FilmMesh& films, const mesh::Projection& project, do
 
   const std::vector<double> target_length = mesh::targets_at_vertices(films, target);
   StarMesh star_mesh(work);
-  if (parameters.one_triangle_a_corner) report.remesh.n_flipped += fill_corners(star_mesh);
+  if (parameters.one_triangle_a_corner) {
+    report.remesh.n_flipped += fill_corners(star_mesh, project);
+    for (int sweep = 0; sweep < sweeps_after_corners; ++sweep)
+      move_vertices(star_mesh, project, target_length);
+  }
   project_vertices(star_mesh, project, least_angle);
   report.repair = repair(star_mesh, project, target_length, parameters.wanted_angle_degrees);
   report.n_off = project_vertices(star_mesh, project, least_angle);

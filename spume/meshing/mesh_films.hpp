@@ -13,16 +13,18 @@ namespace spume::meshing {
 /// The mesh for drainage (paper, Sec. 3.3.1): nearly equilateral triangles, uniform or finer towards Plateau
 /// borders, where the films' boundary layers are.
 struct MeshingParameters {
-  double edge = 1.0;               ///< target edge in the middle of films [h]
-  double edge_at_borders = 0.6;    ///< target edge at Plateau borders, at most [h]
-  double finest_at_borders = 0.6;  ///< and at least, however thin the layer [h]
-  double layer_width = 0;       ///< of the boundary layer [m], two edges wide if the limits allow; 0: unknown
-  double smallest_edge = 0.15;  ///< target around short borders and in narrow films, at least [h]
-  double grading = 0.3;         ///< growth of the target a unit of distance from the border
-  int sweeps = 20;              ///< of moves by forces
+  double edge = 1.0;                 ///< target edge in the middle of films [h]
+  double edge_at_borders = 0;        ///< target edge at Plateau borders [m]; 0: half the boundary layer …
+  double coarsest_at_borders = 0.6;  ///< … but not above this [h],
+  double finest_at_borders = 0.35;   ///< nor below this [h]
+  double layer_width = 0;  ///< of the boundary layer [m], see drainage_layer_width(); 0: as wide as need be
+  double edge_at_junctions = 0;        ///< target edge where borders meet [m]; 0: as at borders
+  double smallest_edge = 0.04;         ///< target around short borders and in narrow films, at least [h]
+  double grading = 0.3;                ///< growth of the target a unit of distance from the border
+  int sweeps = 20;                     ///< of moves by forces
   bool one_triangle_a_corner = true;   ///< at junctions, where the corner of the film allows it
   double wanted_angle_degrees = 32;    ///< triangles with smaller angles are repaired where possible
-  double smallest_angle_degrees = 15;  ///< wanted; the report says what was reached
+  double smallest_angle_degrees = 20;  ///< wanted; the report says what was reached
 };
 struct MeshingReport {
   mesh::Quality after;

@@ -1,6 +1,7 @@
 #include "spume/meshing/moves.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include "spume/meshing/forces.hpp"
 
@@ -59,12 +60,36 @@ int move_vertices(StarMesh& m, const mesh::Projection& project, std::span<const 
   return n_moved;
 }
 
+std::optional<Vec3> belonging(const StarMesh& m, const mesh::Projection& project, int v) {
+  constexpr int n_rounds = 30;
+  const Vec3& start = m.films.position[v];
+  const auto there = project(start, m.work.phases[v]);
+  if (there || m.work.kind(v) != mesh::VertexKind::Junction) return there;
+
+  std::vector<mesh::PhaseSet> films;
+  for (int t : m.star[v]) {
+    const mesh::PhaseSet pair{m.films.triangle[t].phase_a, m.films.triangle[t].phase_b};
+    if (std::find(films.begin(), films.end(), pair) == films.end()) films.push_back(pair);
+  }
+  Vec3 place = start;
+  for (int round = 0; round < n_rounds; ++round) {
+    Vec3 sum;
+    for (const mesh::PhaseSet& pair : films) {
+      const auto on_film = project(place, pair);
+      if (!on_film) return std::nullopt;
+      sum += *on_film - place;
+    }
+    place += sum / static_cast<double>(films.size());
+  }
+  return place;
+}
+
 int project_vertices(StarMesh& m, const mesh::Projection& project, double least_degrees) {
   const double acceptable = badness_of_angle(least_degrees);
   int n_off = 0;
   for (int v = 0; v < m.films.n_vertices(); ++v) {
     if (m.work.held[v] || m.star[v].empty()) continue;
-    const auto there = project(m.films.position[v], m.work.phases[v]);
+    const auto there = belonging(m, project, v);
     const StarBadness around(m, v);
     if (there && around.at(*there) <= std::max(around.at(m.films.position[v]), acceptable))
       m.films.position[v] = *there;

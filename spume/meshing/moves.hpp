@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "spume/mesh/remesh.hpp"
@@ -15,9 +16,15 @@ namespace spume::meshing {
 /// moved.
 int move_vertices(StarMesh& star_mesh, const mesh::Projection& project, std::span<const double> target);
 
-/// Puts the vertices onto their films, borders and junctions, where no triangle turns away from the film and
-/// no angle falls below `least_degrees` that was not smaller before. Gives the number of vertices that are
-/// not put onto theirs, those where more than four phases meet among them.
+/// Where a vertex belongs: the projection of its place onto its film, border or junction. Where four films or
+/// more have no point in common that could be found, or more than four phases meet, the place as near to all
+/// films at the vertex as the mean of the projections onto each, repeated, comes. Nothing where the
+/// projection gives nothing.
+std::optional<Vec3> belonging(const StarMesh& star_mesh, const mesh::Projection& project, int v);
+
+/// Puts the vertices where they belong, where no triangle turns away from the film and
+/// no angle falls below `least_degrees` that was not smaller before. Gives the number of vertices that were
+/// left where they are.
 int project_vertices(StarMesh& star_mesh, const mesh::Projection& project, double least_degrees);
 
 /// The worst badness (star_mesh.hpp) of the triangles around v with v at x.

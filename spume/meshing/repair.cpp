@@ -83,12 +83,11 @@ RepairReport repair(StarMesh& m, const mesh::Projection& project, std::span<cons
   return report;
 }
 
-int fill_corners(StarMesh& m) {
-  const mesh::Projection nowhere;  // flips move nothing
-  LocalChanges change(m, nowhere, {});
+int fill_corners(StarMesh& m, const mesh::Projection& project) {
+  LocalChanges change(m, project, {});
   int n_flipped = 0;
   for (int t = 0; t < m.films.n_triangles(); ++t)
-    for (int c = 0; c < 3; ++c) n_flipped += change.fill_corner(t, c);
+    for (int c = 0; c < 3 && !m.dead[t]; ++c) n_flipped += change.fill_corner(t, c);
   return n_flipped;
 }
 

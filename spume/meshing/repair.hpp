@@ -25,8 +25,8 @@ RepairReport repair(StarMesh& star_mesh, const mesh::Projection& project, std::s
                     double wanted_degrees);
 
 /// Flips edges that run from a junction to the inside of a film between two triangles alone, so that one
-/// triangle fills the corner of the film, where that is Delaunay and leaves no angle below 28 degrees. The
-/// node of a corner then has no link into its film. Gives the number of flips.
-int fill_corners(StarMesh& star_mesh);
+/// triangle fills the corner of the film, where that leaves no angle below 15 degrees. The vertex of a corner
+/// then has no link into its film, as drainage wants it. Gives the number of flips.
+int fill_corners(StarMesh& star_mesh, const mesh::Projection& project);
 
 }  // namespace spume::meshing

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "spume/base/error.hpp"
 #include "spume/interface/reconstruct.hpp"
@@ -35,14 +36,29 @@ const char* name(mesh::VertexKind kind) {
   return "";
 }
 
+/// Width of the boundary layers at the films' rims [m], from the mean η and λ; 0 where there are no borders.
+double layer_width(const state::Foam& foam, const mesh::Topology& topology) {
+  const auto lengths = mesh::border_dof_lengths(foam.films, topology);
+  const double area = mesh::film_area(foam.films),
+               length = std::accumulate(lengths.begin(), lengths.end(), 0.0);
+  const auto sum = [](const std::vector<double>& volume) {
+    return std::accumulate(volume.begin(), volume.end(), 0.0);
+  };
+  if (!(area > 0 && length > 0)) return 0;
+  return meshing::drainage_layer_width(sum(foam.liquid.lamella_volume) / (2 * area),
+                                       sum(foam.liquid.border_volume) / length);
+}
+
 /// Reconstructs the films once more, for a projection onto them, and gives them the mesh for drainage.
 void mesh_films(const grid::Grid& grid, const Case& run_case, RunState& run, Witness& witness) {
   const double old_area = mesh::film_area(run.foam.films);
   FilmUpdate update = reconstruct_films(grid, run_case, run.foam);
   witness.events(update.events);
   mesh::FilmMesh films = run.foam.films;
+  meshing::MeshingParameters parameters = run_case.meshing;
+  parameters.layer_width = layer_width(run.foam, update.topology);
   const auto report =
-      meshing::improve(films, interface::projection_onto(update.potentials), grid.h(), run_case.meshing);
+      meshing::improve(films, interface::projection_onto(update.potentials), grid.h(), parameters);
   if (run_case.rearrangement.conserve_volumes)
     mesh::restore_volumes(films, run.foam.phases.target_volume, 3, 0.1 * grid.h());
   const auto topology = replace_films(run_case, grid.h(), std::move(films), run.foam, update.transfer);

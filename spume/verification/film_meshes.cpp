@@ -47,7 +47,7 @@ double seconds(const StageTimes& times, std::string_view stage) {
 
 meshing::MeshingParameters with_edge_at_borders(double edge) {
   meshing::MeshingParameters parameters;
-  parameters.edge_at_borders = parameters.finest_at_borders = edge;
+  parameters.coarsest_at_borders = edge;
   return parameters;
 }
 

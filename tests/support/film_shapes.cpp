@@ -240,6 +240,56 @@ Vec3 on_four_bubbles(double radius, const Vec3& x, const PhaseSet& phases) {
   return x - dot(x, n) * n;
 }
 
+FilmMesh sliced_ball(double radius, double width, double edge) {
+  FilmMesh mesh;
+  const double rim_angle = std::acos(0.5 * width / radius), rim = radius * std::sin(rim_angle);
+  const auto count = [&](double circle) {
+    return std::max(5, static_cast<int>(std::lround(2 * pi * circle / edge)));
+  };
+  const Ring left = add_ring(mesh, -0.5 * width, rim, count(rim)),
+             right = add_ring(mesh, 0.5 * width, rim, count(rim));
+  const auto number = [&](double length) {
+    return std::max(1, static_cast<int>(std::lround(length / edge)));
+  };
+  // From an axis point outwards: `place` gives x and the distance from the axis at a fraction of the way.
+  const auto fill = [&](const Ring& last, int n_rings, auto&& place, Phase p, Phase q) {
+    Ring inner{};
+    for (int k = 0; k <= n_rings; ++k) {
+      const auto [x, circle] = place(static_cast<double>(k) / n_rings);
+      const Ring outer = k == n_rings ? last : add_ring(mesh, x, circle, k == 0 ? 1 : count(circle));
+      if (k > 0) stitch(mesh, inner, outer, p, q);
+      inner = outer;
+    }
+  };
+  for (const double sign : {-1.0, 1.0}) {
+    const Ring& ring = sign < 0 ? left : right;
+    const auto on_cap = [&](double t) {
+      return std::pair(sign * radius * std::cos(t * rim_angle), radius * std::sin(t * rim_angle));
+    };
+    const auto on_disc = [&](double t) { return std::pair(sign * 0.5 * width, t * rim); };
+    fill(ring, number(radius * rim_angle), on_cap, sign < 0 ? 0 : 3, sign < 0 ? 1 : 0);
+    fill(ring, number(rim), on_disc, sign < 0 ? 1 : 2, sign < 0 ? 2 : 3);
+  }
+  Ring inner = right;
+  const int n_rows = number(width);
+  for (int k = 1; k <= n_rows; ++k) {
+    const double x = width * (0.5 - static_cast<double>(k) / n_rows),
+                 circle = std::sqrt(radius * radius - x * x);
+    const Ring outer = k == n_rows ? left : add_ring(mesh, x, circle, count(circle));
+    stitch(mesh, inner, outer, 2, 0);
+    inner = outer;
+  }
+  return mesh;
+}
+
+Vec3 on_sliced_ball(double radius, double width, const Vec3& x, const PhaseSet& phases) {
+  if (phases.size() == 2 && phases.contains(0)) return radius * normalized(x);
+  const double plane = phases.contains(1) ? -0.5 * width : 0.5 * width;
+  if (phases.size() == 2) return {plane, x.y, x.z};
+  const double rim = std::sqrt(radius * radius - plane * plane);
+  return Vec3{plane, 0, 0} + rim * normalized(Vec3{0, x.y, x.z});
+}
+
 int split_edge(mesh::FilmMesh& mesh, int a, int b, double fraction) {
   const int middle = mesh.n_vertices();
   mesh.position.push_back(mesh.position[a] + fraction * (mesh.position[b] - mesh.position[a]));

@@ -28,6 +28,12 @@ inline constexpr double four_bubble_volume = 2.791585698;  // of each bubble, fo
 /// The nearest point of the film, border or junction where the phases of that cluster meet.
 Vec3 on_four_bubbles(double radius, const Vec3& x, const mesh::PhaseSet& phases);
 
+/// A ball cut into three bubbles by the planes x = ∓width/2: bubble 1 at x < 0, the slice 2, bubble 3. The
+/// outer film of the slice is a strip between two closed borders. Edges are about `edge` long.
+mesh::FilmMesh sliced_ball(double radius, double width, double edge);
+/// The nearest point of the film or border where the phases of that ball meet.
+Vec3 on_sliced_ball(double radius, double width, const Vec3& x, const mesh::PhaseSet& phases);
+
 /// Puts a vertex on the edge between two vertices, at a fraction of the way from `a` to `b`, in all triangles
 /// there. Gives the vertex.
 int split_edge(mesh::FilmMesh& mesh, int a, int b, double fraction);
