@@ -10,9 +10,9 @@ namespace spume::grid {
 /// before it is sampled; S is symmetric, so the pair of operators stays adjoint, and it leaves a velocity on
 /// faces as free of divergence as it was.
 ///
-/// The cubic spline alone would be undone to fourth order by a = 1/6, b = 7/240. The values here are those
-/// with which the linear theory of a film wave on the grid, projection and flat triangles included, is
-/// nearest to the exact law from 8 to 64 cells a wavelength; see docs/decisions/0013.
+/// The cubic spline alone would be undone to fourth order by a = 1/6, b = 7/240. The values here are not
+/// derived: with them a film wave is nearest to the exact law from 8 to 64 cells a wavelength, in a linear
+/// theory that includes projection and flat triangles, and in simulated waves; see docs/decisions/0013.
 class Sharpening {
  public:
   static constexpr double a = 0.14, b = 0.085;
