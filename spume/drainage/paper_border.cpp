@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "spume/base/error.hpp"
 #include "spume/drainage/constants.hpp"
@@ -173,9 +174,8 @@ std::optional<BorderFault> PaperBorders::advance(double dt, std::span<const doub
     const auto own = lambda.subspan(offset_[c], size);
     advance_curve(static_cast<int>(c), dt, load.subspan(offset_[c], size), own);
     // The lowest, or one that is not a number.
-    const auto worst = std::min_element(own.begin(), own.end(), [](double v, double w) {
-      return std::isnan(v) ? !std::isnan(w) : v < w;
-    });
+    const auto worst = std::min_element(
+        own.begin(), own.end(), [](double v, double w) { return std::isnan(v) ? !std::isnan(w) : v < w; });
     if (!(*worst > 0) || !std::isfinite(*worst))
       return BorderFault{-1, static_cast<int>(c), static_cast<int>(worst - own.begin()), *worst};
   }

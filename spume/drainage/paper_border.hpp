@@ -49,8 +49,8 @@ double junction_slope(const JunctionArm& arm, double lambda0);
 ///   one that tends to the λ next to the junction
 std::optional<double> junction_area(std::span<const JunctionArm> arms, const state::Materials& materials);
 
-/// What one border brings to the balance at the junction [N m]: (C_Δ/μ) W is the flux out of the border
-/// there. Paper: Sec. 3.3.4, Eq. (15).
+/// What one border brings to the balance at the junction [N m]: it loses (C_Δ/μ) W there.
+/// Paper: Sec. 3.3.4, Eq. (15).
 ///   W = C₁ λ₀^{1/2} ∂λ/∂ℓ − λ₀² ρ g_i, C₁ = ½ σ (√3 − π/2)^{1/2}; ΣW = 0 over the junction
 double junction_flux(const JunctionArm& arm, double lambda0, const state::Materials& materials);
 

@@ -124,7 +124,7 @@ class PaperStage {
       gather(network_.half_thickness, l, eta_);
       gather(film_load_, l, load_);
       if (!lamella_[l].advance(dt, load_, eta_))
-        fail(elapsed, dt, describe_film_dof(network_, film_dof_[l].front(), eta_.front()));
+        fail(elapsed, dt, "η grows without bound: " + describe_thickest(l));
       for (std::size_t i = 0; i < eta_.size(); ++i) {
         if (!(eta_[i] > 0)) fail(elapsed, dt, describe_film_dof(network_, film_dof_[l][i], eta_[i]));
         network_.half_thickness[film_dof_[l][i]] = eta_[i];
@@ -143,6 +143,13 @@ class PaperStage {
   void gather(const std::vector<double>& of_dofs, std::size_t lamella, std::vector<double>& own) const {
     own.clear();
     for (int d : film_dof_[lamella]) own.push_back(of_dofs[d]);
+  }
+
+  std::string describe_thickest(std::size_t lamella) const {
+    const auto thickest = std::max_element(
+        film_dof_[lamella].begin(), film_dof_[lamella].end(),
+        [&](int a, int b) { return network_.half_thickness[a] < network_.half_thickness[b]; });
+    return describe_film_dof(network_, *thickest, network_.half_thickness[*thickest]);
   }
 
   std::string describe(const BorderFault& fault) const {

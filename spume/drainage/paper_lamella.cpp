@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
+#include "spume/base/contract.hpp"
 #include "spume/fem/triangle_matrices.hpp"
 
 namespace spume::drainage {
@@ -35,6 +37,9 @@ PaperLamella::PaperLamella(LamellaSurface surface, const state::Materials& mater
     : surface_(std::move(surface)),
       materials_(materials),
       laplacian_(fem::assemble_surface_laplacian(surface_.position, surface_.triangle, surface_.domain)) {
+  const std::size_t n = surface_.position.size();
+  expects(surface_.curvature_squared.size() == n && surface_.tangential_gravity.size() == n,
+          "one curvature and one gravity per vertex");
   for (const auto& corner : surface_.triangle) {
     const Vec3 a = surface_.position[corner[0]], b = surface_.domain.near(surface_.position[corner[1]], a),
                c = surface_.domain.near(surface_.position[corner[2]], a);
@@ -142,7 +147,7 @@ bool PaperLamella::advance(double dt, std::span<const double> load, std::span<do
   const double missing = (gained - dot_product(laplacian_.mass, right_)) /
                          std::accumulate(laplacian_.mass.begin(), laplacian_.mass.end(), 0.0);
   for (int i = 0; i < n_nodes(); ++i) eta[i] += right_[i] + missing;
-  return true;
+  return std::isfinite(missing);
 }
 
 bool PaperLamella::factorise(double s) {

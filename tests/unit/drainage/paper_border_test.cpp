@@ -65,7 +65,7 @@ TEST(JunctionArea, is_none_where_no_balance_exists) {
   EXPECT_FALSE(junction_area(steep, unit_materials()));
 }
 
-/// Two borders of n edges between two junctions... with two more: lengths differ from border to border.
+/// Four borders of n edges and different lengths between two junctions, gravity along three of them.
 BorderCurves four_straight_borders(int n) {
   BorderCurves borders;
   borders.junction.resize(2);
