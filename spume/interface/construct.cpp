@@ -10,7 +10,7 @@
 #include "spume/interface/find_films.hpp"
 #include "spume/interface/potentials.hpp"
 #include "spume/interface/reconstruct.hpp"
-#include "spume/mesh/measure.hpp"
+#include "spume/interface/smooth_area.hpp"
 #include "spume/mesh/volume_constraint.hpp"
 
 namespace spume::interface {
@@ -161,7 +161,7 @@ Reconstruction construct(const grid::Grid& grid, const Potential& potential, sta
   project_on_functions(potential, functions_of_phases(phases.count(), report.changes), found.topology, h,
                        found.films);
   if (const auto problem = clearance_problem(grid, found.films); !problem.empty()) throw InputError(problem);
-  const std::vector<double> volume = mesh::phase_volumes(found.films, phases.count());
+  const std::vector<double> volume = smooth_phase_volumes(found.films, found.topology, phases.count());
   std::copy(volume.begin() + 1, volume.end(), phases.target_volume.begin() + 1);
   for (auto& change : report.changes)
     if (change.other != change.phase) change.volume = volume[change.other];

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <utility>
 
 #include "spume/base/error.hpp"
 #include "spume/base/flat_map.hpp"
@@ -46,6 +47,24 @@ struct VertexKeyHash {
     return hash ^ (hash >> 32);
   }
 };
+
+/// The triangles that the faces of a cube are cut into, seen from outside; their diagonals are those of the
+/// Kuhn tetrahedra, from the lowest corner of a face to its highest.
+constexpr std::array<std::array<int, 3>, 12> face_triangles{{{0, 4, 6},
+                                                             {0, 6, 2},
+                                                             {1, 7, 5},
+                                                             {1, 3, 7},
+                                                             {0, 5, 4},
+                                                             {0, 1, 5},
+                                                             {2, 6, 7},
+                                                             {2, 7, 3},
+                                                             {0, 3, 1},
+                                                             {0, 2, 3},
+                                                             {4, 5, 7},
+                                                             {4, 7, 6}}};
+
+/// What the corners of a cube say about its films.
+enum class CubeKind : std::uint8_t { Empty, OneFilm, Several };
 
 /// Number of pairs out of order: its parity is that of the permutation.
 bool is_odd(const std::array<int, 4>& order) {
@@ -105,16 +124,27 @@ class Contourer {
     CellBox cubes = whole_;
     for (int d = 0; d < 3; ++d)
       if (!potentials_.lattice().periodic[d]) --cubes.end[d];
-    for (int k = cubes.begin.k; k < cubes.end.k; ++k) {
-      for (int j = cubes.begin.j; j < cubes.end.j; ++j) {
-        find_mixed_cubes(cubes.end.i, j, k);
-        for (int i = cubes.begin.i; i < cubes.end.i; ++i)
-          if (mixed_[i]) {
-            read_winners(i, j, k);
-            contour_cube(i, j, k);
-          }
-      }
-    }
+    kind_.assign(whole_.size(), CubeKind::Empty);
+    const auto for_each_mixed_cube = [&](auto&& body) {
+      for (int k = cubes.begin.k; k < cubes.end.k; ++k)
+        for (int j = cubes.begin.j; j < cubes.end.j; ++j) {
+          find_mixed_cubes(cubes.end.i, j, k);
+          for (int i = cubes.begin.i; i < cubes.end.i; ++i)
+            if (mixed_[i]) {
+              read_winners(i, j, k);
+              find_candidates(i, j, k);
+              cube_ = {i, j, k};
+              body(kind_[whole_.offset(i, j, k)]);
+            }
+        }
+    };
+    for_each_mixed_cube([&](CubeKind& kind) { kind = n_cube_ == 2 ? CubeKind::OneFilm : CubeKind::Several; });
+    for_each_mixed_cube([&](CubeKind& kind) {
+      if (kind == CubeKind::OneFilm)
+        contour_one_film();
+      else
+        contour_tetrahedra();
+    });
     return std::move(films_);
   }
 
@@ -154,9 +184,62 @@ class Contourer {
                          lattice.image(k + (corner >> 2), 0, 2));
   }
 
-  void contour_cube(int i, int j, int k) {
-    find_candidates(i, j, k);
-    cube_ = {i, j, k};
+  /// The film of two phases in a cube where no other competes: closed lines on the faces of the cube, filled.
+  /// On faces to cubes with several films the lines have the corners of the tetrahedra there, elsewhere only
+  /// those on the edges of the cube.
+  void contour_one_film() {
+    std::array<double, 8> excess;  // of the first phase
+    for (int c = 0; c < 8; ++c) excess[c] = cube_value_[0][c] - cube_value_[1][c];
+    constexpr int none = -1;
+    const auto edge_of = [](int p, int q) { return std::min(p, q) * 8 + std::max(p, q); };
+    std::array<int, 64> next;  // edge of the cube or of a diagonal → the one that follows along a line
+    next.fill(none);
+    for (const auto& corner : face_triangles) {
+      int leaves = none, enters = none;  // the first phase
+      for (int c = 0; c < 3; ++c) {
+        const int p = corner[c], q = corner[(c + 1) % 3];
+        if ((excess[p] >= 0) == (excess[q] >= 0)) continue;
+        (excess[p] >= 0 ? leaves : enters) = edge_of(p, q);
+      }
+      if (leaves != none) next[enters] = leaves;
+    }
+    for (int first = 0; first < 64; ++first) {
+      if (next[first] == none) continue;
+      std::array<int, 18> v;  // twelve edges and six diagonals
+      int n = 0;
+      for (int edge = first; next[edge] != none;) {
+        if (!is_left_out(edge / 8, edge % 8)) v[n++] = vertex_on_edge(edge / 8, edge % 8, excess);
+        edge = std::exchange(next[edge], none);
+      }
+      fill_polygon(v.data(), n, cube_phase_[0], cube_phase_[1]);
+    }
+  }
+  /// Whether a diagonal of a face needs no vertex: none of the cubes on both sides has several films.
+  bool is_left_out(int low, int high) const {
+    const int across = 7 & ~(low ^ high);  // the bit of the axis across the face
+    if (!std::has_single_bit(static_cast<unsigned>(across))) return false;
+    const int axis = std::countr_zero(static_cast<unsigned>(across));
+    Index3 beyond = cube_;
+    beyond[axis] += low & across ? 1 : -1;
+    beyond[axis] = potentials_.lattice().image(beyond[axis], 0, axis);
+    return !whole_.contains(beyond.i, beyond.j, beyond.k) ||
+           kind_[whole_.offset(beyond.i, beyond.j, beyond.k)] != CubeKind::Several;
+  }
+  int vertex_on_edge(int low, int high, const std::array<double, 8>& excess) {
+    const VertexKey key{
+        lattice_point(cube_.i, cube_.j, cube_.k, low) << 9 | static_cast<unsigned>(low ^ high),
+        {cube_phase_[0], cube_phase_[1], -1, -1}};
+    const int number = vertex_of_.find_or_insert(key, films_.n_vertices());
+    if (number == films_.n_vertices()) {
+      const double s = excess[low] == excess[high] ? 0.5 : excess[low] / (excess[low] - excess[high]);
+      Vec3 place{cube_.i + 0.5, cube_.j + 0.5, cube_.k + 0.5};
+      for (int d = 0; d < 3; ++d) place[d] += (1 - s) * (low >> d & 1) + s * (high >> d & 1);
+      films_.position.push_back(potentials_.box().lower + potentials_.h() * place);
+    }
+    return number;
+  }
+
+  void contour_tetrahedra() {
     for (int t = 0; t < 6; ++t) {
       const auto& axis = axis_orders[t];
       mask_ = {0, 1 << axis[0], (1 << axis[0]) | (1 << axis[1]), 7};
@@ -313,10 +396,15 @@ class Contourer {
       if (n == 0 || next != v[n - 1]) v[n++] = next;
     }
     while (n > 1 && v[n - 1] == v[0]) --n;
-    if (n < 3) return;
     if (polygon.reversed) std::reverse(v.begin(), v.begin() + n);
-    const auto add = [&](int p, int q, int r) {
-      films_.triangle.push_back({{p, q, r}, phase_[a], phase_[b]});
+    fill_polygon(v.data(), n, phase_[a], phase_[b]);
+  }
+
+  /// Cuts a polygon into triangles between phases p and q by its shortest diagonals.
+  void fill_polygon(int* v, int n, mesh::Phase p, mesh::Phase q) {
+    if (n < 3) return;
+    const auto add = [&](int first, int second, int third) {
+      films_.triangle.push_back({{first, second, third}, p, q});
     };
     for (; n > 3; --n) {
       int ear = 0;
@@ -328,7 +416,7 @@ class Contourer {
         ear = m;
       }
       add(v[(ear + n - 1) % n], v[ear], v[(ear + 1) % n]);
-      std::copy(v.begin() + ear + 1, v.begin() + n, v.begin() + ear);
+      std::copy(v + ear + 1, v + n, v + ear);
     }
     add(v[0], v[1], v[2]);
   }
@@ -371,7 +459,8 @@ class Contourer {
   CellBox whole_;
   mesh::FilmMesh films_;
   FlatMap<VertexKey, VertexKeyHash> vertex_of_;
-  std::vector<int> mixed_;  ///< of the row: 0 where all corners of a cube have one winner
+  std::vector<CubeKind> kind_;  ///< of the cube above each lattice point
+  std::vector<int> mixed_;      ///< of the row: 0 where all corners of a cube have one winner
 
   // of the cube
   Index3 cube_;

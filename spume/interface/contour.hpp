@@ -11,6 +11,10 @@ namespace spume::interface {
 /// between cell centres: the film of phases i and j is {ψ_i = ψ_j}, clipped by ψ_i ≥ ψ_k for every other
 /// phase k.
 ///
+/// Where only two phases compete in a cube, its film is a closed line on the faces of the cube, filled; on
+/// faces between such cubes the line goes straight from edge to edge of the cube. That is a third of the
+/// triangles.
+///
 /// The mesh is conforming by construction: a vertex is known by the face of the tetrahedra it lies in (its
 /// lowest lattice point and the chain of steps to the others) and by the phases that meet there, never by
 /// where it is. It lies on two sides of its film's polygon, each of which is either in a face of the

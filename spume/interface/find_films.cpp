@@ -56,7 +56,7 @@ FoundFilms find_films(PhasePotentials& potentials, state::Phases& phases, double
       amplitude *= 10;
     }
   }
-  settle_new_phases(found.films, phases, changes, first_change);
+  settle_new_phases(found.films, found.topology, phases, changes, first_change);
   return found;
 }
 

@@ -33,7 +33,7 @@ PhaseBlocks blocks_of_phases(const grid::Grid& grid, const mesh::FilmMesh& films
 ///   ĉ = (div g)^ T(s|θ|²/(2h²)) / (−Σ_d (2 − 2 cos θ_d)/h² Π_d sinc³(θ_d/2)),
 /// and the mean of c is the volume of the phase over that of its room. Beyond eight cells the kernel is not
 /// felt, so each bubble has a small transform of its own; ranks share the bubbles between them.
-/// Triangles are curved: quadratic through corners and lowered midpoints of edges.
+/// Triangles are curved: quadratic through corners and midpoints of edges.
 /// Collective. The films must be at least four cells away from walls, where mirror images would be felt.
 std::vector<std::vector<double>> smoothed_indicators(const grid::Grid& grid, const mesh::FilmMesh& films,
                                                      const std::vector<EdgeMidpoints>& midpoints,

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "spume/base/union_find.hpp"
-#include "spume/mesh/measure.hpp"
+#include "spume/interface/smooth_area.hpp"
 
 namespace spume::interface {
 
@@ -252,10 +252,10 @@ bool separate_pieces(PhasePotentials& potentials, const Winners& winners, state:
   return changed;
 }
 
-void settle_new_phases(const mesh::FilmMesh& films, state::Phases& phases, std::vector<PhaseChange>& changes,
-                       std::size_t first) {
+void settle_new_phases(const mesh::FilmMesh& films, const mesh::Topology& topology, state::Phases& phases,
+                       std::vector<PhaseChange>& changes, std::size_t first) {
   if (changes.size() == first) return;
-  const std::vector<double> volume = mesh::phase_volumes(films, phases.count());
+  const std::vector<double> volume = smooth_phase_volumes(films, topology, phases.count());
   // A piece that split off may itself have split in a later round: a family is all that came of one phase
   // that was there before, or of one pocket.
   std::map<mesh::Phase, mesh::Phase> ancestor;

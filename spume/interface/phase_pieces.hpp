@@ -48,8 +48,8 @@ bool separate_pieces(PhasePotentials& potentials, const Winners& winners, state:
 /// Gives target volumes to the phases born by changes[first …], from the volumes measured on the mesh: pieces
 /// of a bubble share its target in proportion to their volumes, pockets get what was measured. Volumes in
 /// `changes` follow.
-void settle_new_phases(const mesh::FilmMesh& films, state::Phases& phases, std::vector<PhaseChange>& changes,
-                       std::size_t first);
+void settle_new_phases(const mesh::FilmMesh& films, const mesh::Topology& topology, state::Phases& phases,
+                       std::vector<PhaseChange>& changes, std::size_t first);
 
 /// The contour may leave specks of a phase that hold no cell centre. Lowers the phase around every closed
 /// surface of a phase beyond its largest one (of the outside: around every closed surface) that encloses less

@@ -22,7 +22,7 @@ struct ReconstructParameters {
   double smallest_bubble_cells = 2.5;  ///< pieces below (this × h)³ are not kept as bubbles of their own
   bool conserve_volumes = true;
   double edge = 1;  ///< target length of the edges of the new mesh [h]
-  mesh::RemeshParameters remesh{.merge_below = 0.3};
+  mesh::RemeshParameters remesh{.collapse_below = 0.6, .no_edge_beyond = 1.5, .merge_below = 0.3};
 };
 
 /// What a reconstruction did, for the log and for events.

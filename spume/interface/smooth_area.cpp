@@ -30,18 +30,28 @@ double extrapolated(double coarse, double fine) {
   return (4 * fine - coarse) / 3;
 }
 
+std::vector<double> extrapolated(std::vector<double> coarse, const std::vector<double>& fine) {
+  for (std::size_t n = 0; n < coarse.size(); ++n) coarse[n] = extrapolated(coarse[n], fine[n]);
+  return coarse;
+}
+
 }  // namespace
+
+std::vector<double> smooth_phase_volumes(const mesh::FilmMesh& films, const mesh::Topology& topology,
+                                         int n_phases) {
+  const mesh::FilmMesh fine = subdivided(films, edge_midpoints(films, topology));
+  return extrapolated(mesh::phase_volumes(films, n_phases), mesh::phase_volumes(fine, n_phases));
+}
 
 double smooth_film_area(const mesh::FilmMesh& films, const mesh::Topology& topology,
                         const state::Phases& phases) {
   const mesh::FilmMesh fine = subdivided(films, edge_midpoints(films, topology));
   const int n = phases.count();
-  const auto volume = mesh::phase_volumes(films, n), fine_volume = mesh::phase_volumes(fine, n);
+  const auto volume = extrapolated(mesh::phase_volumes(films, n), mesh::phase_volumes(fine, n));
   const auto pressure = mesh::film_pressures(films, topology, mesh::area_descent(films), n);
   double area = extrapolated(mesh::film_area(films), mesh::film_area(fine));
   for (mesh::Phase p = 1; p < n; ++p)
-    if (phases.alive(p))
-      area -= pressure[p] * (extrapolated(volume[p], fine_volume[p]) - phases.target_volume[p]);
+    if (phases.alive(p)) area -= pressure[p] * (volume[p] - phases.target_volume[p]);
   return area;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "spume/mesh/film_mesh.hpp"
 #include "spume/mesh/topology.hpp"
 #include "spume/state/phases.hpp"
@@ -17,5 +19,9 @@ namespace spume::interface {
 /// For meshes in or near equilibrium; then fourth order in the interior of films.
 double smooth_film_area(const mesh::FilmMesh& films, const mesh::Topology& topology,
                         const state::Phases& phases);
+
+/// Volumes that the curved triangles above enclose, V_c of every phase [m³]; indexed by phase.
+std::vector<double> smooth_phase_volumes(const mesh::FilmMesh& films, const mesh::Topology& topology,
+                                         int n_phases);
 
 }  // namespace spume::interface

@@ -5,6 +5,7 @@
 #include "analytic_foams.hpp"
 #include "spume/interface/contour.hpp"
 #include "spume/interface/find_films.hpp"
+#include "spume/interface/smooth_area.hpp"
 #include "spume/mesh/measure.hpp"
 
 namespace spume::interface {
@@ -56,8 +57,8 @@ TEST(SeparatePieces, GivesALargePieceANewPhase) {
   EXPECT_EQ(changes[0].kind, Kind::Split);
   EXPECT_EQ(changes[0].other, 2);
   ASSERT_EQ(phases.count(), 3);
-  // The targets share the old one in proportion to the volumes on the mesh.
-  const auto volume = mesh::phase_volumes(found.films, 3);
+  // The targets share the old one in proportion to the volumes of the smooth films.
+  const auto volume = smooth_phase_volumes(found.films, found.topology, 3);
   EXPECT_NEAR(phases.target_volume[1] + phases.target_volume[2], 7e-10, 1e-24);
   EXPECT_NEAR(phases.target_volume[2] / phases.target_volume[1], volume[2] / volume[1], 1e-12);
   EXPECT_NEAR(volume[2] / volume[1], 0.216, 0.01);  // (3/5)³, and what linear interpolation leaves out
@@ -102,7 +103,7 @@ TEST(SeparatePieces, MakesAPhaseOfAnEnclosedPocketOfTheOutside) {
   const auto found = find_films(potentials, phases, smallest_volume, changes);
   ASSERT_EQ(changes.size(), 1u);
   EXPECT_EQ(changes[0].kind, Kind::Pocket);
-  EXPECT_DOUBLE_EQ(phases.target_volume[2], mesh::phase_volumes(found.films, 3)[2]);
+  EXPECT_DOUBLE_EQ(phases.target_volume[2], smooth_phase_volumes(found.films, found.topology, 3)[2]);
   EXPECT_DOUBLE_EQ(phases.target_volume[1], 1e-9);
 }
 
