@@ -25,9 +25,12 @@ void add_band(mesh::FilmMesh& mesh, std::span<const int> near, std::span<const i
               mesh::Phase q) {
   std::size_t i = 0, j = 0;
   while (i + 1 < near.size() || j + 1 < far.size()) {
+    const bool near_is_done = i + 1 == near.size(), far_is_done = j + 1 == far.size();
+    const bool first = i == 0 && j == 0, last_of_far = j + 2 == far.size();
     const bool along_far =
-        i + 1 == near.size() ||
-        (j + 1 < far.size() && norm(mesh.edge(near[i], far[j + 1])) <= norm(mesh.edge(near[i + 1], far[j])));
+        near_is_done ||
+        (!far_is_done && (first || (!last_of_far && norm(mesh.edge(near[i], far[j + 1])) <=
+                                                        norm(mesh.edge(near[i + 1], far[j])))));
     if (along_far) {
       mesh.triangle.push_back(mesh::make_triangle(near[i], far[j], far[j + 1], p, q));
       ++j;

@@ -11,8 +11,8 @@ namespace spume::verification {
 state::FilmNetwork uniform_network(mesh::FilmMesh mesh, double half_thickness, double border_area);
 
 /// Adds the triangles between two rows of vertices that run alongside each other, each time the one with the
-/// shorter new edge. A row may be a single vertex. Normals by the right-hand rule over (near, far, next far)
-/// point from p into q.
+/// shorter new edge, the first and the last along `far`, so that a corner there is one triangle. A row may be
+/// a single vertex. Normals by the right-hand rule over (near, far, next far) point from p into q.
 void add_band(mesh::FilmMesh& mesh, std::span<const int> near, std::span<const int> far, mesh::Phase p,
               mesh::Phase q);
 

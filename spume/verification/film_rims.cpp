@@ -1,4 +1,5 @@
-// How thin films become along borders and in corners, against one-dimensional and published-digit references.
+// How thin films become along borders and in corners, against references of one dimension and of finer
+// meshes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -90,7 +91,6 @@ void film_corner(const parallel::Communicator& /*communicator*/, Scale scale, Re
   report.note("the corner of flat films that meet at 109.47°, λ = 0.05 mm² held, η₀ = 5 μm, without gravity");
   constexpr std::array prior{1.887e-6, 0.380e-6, 0.0408e-6, 0.0098e-6, 0.0023e-6};
   const bool full = scale == Scale::Full;
-  std::vector<double> coarser;
   for (const int levels : full ? std::vector{2, 3, 4, 5} : std::vector{2, 3}) {
     const auto corner = corners(full ? 1e-3 : 0.5e-3, levels, 0.02);
     for (std::size_t n = 0; n < times.size(); ++n) {
@@ -101,7 +101,6 @@ void film_corner(const parallel::Communicator& /*communicator*/, Scale scale, Re
       else
         report.told(what, corner[n], "radially graded to 0.5 μm", prior[n]);
     }
-    coarser = corner;
   }
 }
 

@@ -8,13 +8,13 @@ const std::vector<Study>& studies() {
   const char* const linearised = "the linearised thin-film equation (docs/exact_drainage.md)";
   const char* const derived = "closed form (docs/exact_drainage.md)";
   static const std::vector<Study> all{
-      {"film-modes-flat", "decay of small modes on a flat film", linearised, 1, 1, film_modes_flat},
-      {"film-modes-sphere", "decay of small modes on a sphere", linearised, 10, 1, film_modes_sphere},
+      {"film-modes-flat", "decay of small modes on a flat film", linearised, 2, 1, film_modes_flat},
+      {"film-modes-sphere", "decay of small modes on a sphere", linearised, 8, 1, film_modes_sphere},
       {"film-modes-cylinder", "decay and growth of small modes on a tube", linearised, 10, 1,
        film_modes_cylinder},
       {"vertical-film", "a vertical film thins by its weight", derived, 1, 1, vertical_film},
-      {"spherical-film", "top and bottom of a spherical film by its weight", derived, 2, 1, spherical_film},
-      {"border-front", "a wetting front runs down a border", derived, 2, 1, border_front},
+      {"spherical-film", "top and bottom of a spherical film by its weight", derived, 8, 1, spherical_film},
+      {"border-front", "a wetting front runs down a border", derived, 4, 2, border_front},
       {"border-hydrostatic", "a vertical border at rest", derived, 1, 1, border_hydrostatic},
       {"film-rim", "a flat film thins along its border", "one-dimensional finite volumes", 5, 1, film_rim},
       {"film-corner", "a film thins in the corner between two borders", "a radially graded corner", 20, 5,

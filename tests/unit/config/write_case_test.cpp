@@ -96,6 +96,8 @@ std::vector<simulation::Case> other_starts() {
                  "random.toml"),
       parse_case(sides + "[foam.lattice]\nstructure = \"kelvin\"\ncells = 3\n", "crystal.toml"),
       parse_case(sides + "[foam.labels]\nfile = \"/foam.mha\"\nplacement = \"file\"\n", "labels.toml"),
+      parse_case("[foam.films]\nfile = \"/films.vtp\"\nliquid = \"uniform\"\n[cycle]\nstages = [\"drain\"]\n",
+                 "films.toml"),
       parse_case(
           sides + "boundary = [\"slip\", \"periodic\", \"periodic\"]\n[foam.membrane]\npoint = [0.5, 0, 0]\n"
                   "normal = [-2, 0, 0]\n[[foam.bubble]]\nshape = \"sphere\"\ncenter = [0.5, 0.5, 0.5]\n"

@@ -178,6 +178,17 @@ TEST(WrongCase, labels_need_a_file_and_stand_alone) {
               HasSubstr("[foam.labels] gives the whole foam"));
 }
 
+TEST(WrongCase, films_of_a_file_stand_alone_and_only_drain) {
+  const std::string films = "[foam.films]\nfile = \"a.vtp\"\n", drain = "[cycle]\nstages = [\"drain\"]\n";
+  EXPECT_EQ(report(films + drain), "");  // without a [domain]
+  EXPECT_THAT(report("[foam.films]\n" + drain), HasSubstr("[foam.films] has no 'file'"));
+  EXPECT_THAT(report(films), HasSubstr("'cycle.stages' must be [\"drain\"]"));
+  EXPECT_THAT(report(sample_case + films + drain), HasSubstr("[foam.films] gives all films"));
+  EXPECT_THAT(report(films + drain, {"foam.equilibrate=true"}), HasSubstr("drained as they are"));
+  EXPECT_THAT(report(films + drain, {"domain.boundary=[\"wall\", \"periodic\", \"wall\"]"}),
+              HasSubstr("do not go on through periodic faces"));
+}
+
 TEST(WrongCase, pair_of_phases_that_does_not_exist_is_refused) {
   EXPECT_THAT(report(sample_case, {"foam.remove_lamella=[[1, 2]]"}), HasSubstr("there is no phase 2"));
   EXPECT_THAT(report(sample_case, {"rupture.protect=[[1, 1]]"}), HasSubstr("between phase 1 and itself"));

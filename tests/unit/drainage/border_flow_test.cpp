@@ -84,7 +84,7 @@ CrossSection solve(int n) {
 }
 
 TEST(BorderFlow, is_that_of_stokes_flow_between_three_arcs_that_touch) {
-  const CrossSection coarse = solve(6), fine = solve(9);
+  const CrossSection coarse = solve(9), fine = solve(12);
   EXPECT_NEAR(fine.area, border_shape, 1e-12);  // λ = (√3 − π/2) r²
   const double c = fine.flow / (fine.area * fine.area);
   EXPECT_NEAR(coarse.flow / fine.flow, 1, 1e-7);  // the series has converged
