@@ -78,9 +78,12 @@ void flip(FilmMesh& mesh, Stars& star, const Hinge& e) {
   star[e.right].push_back(e.left_triangle);
 }
 
-/// One round: each triangle takes part in one flip at most, since the edge table is that of the start.
-int flip_round(WorkingMesh& work, Stars& star) {
-  const EdgeTable edges = build_edges(work.mesh);
+/// One round: each triangle takes part in one flip at most, since the edge table is that of the start. Only
+/// edges between `open` vertices are looked at; afterwards those of the flipped triangles are open: elsewhere
+/// nothing has changed.
+int flip_round(WorkingMesh& work, Stars& star, std::vector<char>& open) {
+  const EdgeTable edges = build_edges(work.mesh, open);
+  open.assign(open.size(), 0);
   std::vector<char> used(work.mesh.n_triangles(), 0);
   int n_flipped = 0;
   for (const MeshEdge& edge : edges.edge) {
@@ -91,6 +94,7 @@ int flip_round(WorkingMesh& work, Stars& star) {
     if (!flip_improves(work, star, hinge)) continue;
     flip(work.mesh, star, hinge);
     used[left.triangle] = used[right.triangle] = 1;
+    open[hinge.a] = open[hinge.b] = open[hinge.left] = open[hinge.right] = 1;
     ++n_flipped;
   }
   return n_flipped;
@@ -100,9 +104,10 @@ int flip_round(WorkingMesh& work, Stars& star) {
 
 int flip_edges(WorkingMesh& work) {
   Stars star = vertex_stars(work.mesh);
+  std::vector<char> open(work.mesh.n_vertices(), 1);
   int n_flipped = 0;
   for (int round = 0; round < largest_number_of_rounds; ++round) {
-    const int n_this_round = flip_round(work, star);
+    const int n_this_round = flip_round(work, star, open);
     n_flipped += n_this_round;
     if (n_this_round == 0) break;
   }

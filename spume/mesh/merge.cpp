@@ -76,13 +76,16 @@ class Merger {
 
 std::vector<EdgeLength> Merger::tiny_edges() const {
   std::vector<EdgeLength> edges;
-  for (const MeshEdge& e : build_edges(mesh_).edge) {
-    const double limit = parameters_.merge_below * 0.5 * (target_[e.low] + target_[e.high]);
-    const double length_squared = norm_squared(mesh_.edge(e.low, e.high));
-    if (length_squared < limit * limit && !work_.held[e.low] && !work_.held[e.high])
-      edges.push_back({length_squared, e.low, e.high});
-  }
+  for (const FilmTriangle& t : mesh_.triangle)
+    for (int c = 0; c < 3; ++c) {
+      const auto [low, high] = std::minmax(t.vertex[c], t.vertex[(c + 1) % 3]);
+      const double limit = parameters_.merge_below * 0.5 * (target_[low] + target_[high]);
+      const double length_squared = norm_squared(mesh_.edge(low, high));
+      if (length_squared < limit * limit && !work_.held[low] && !work_.held[high])
+        edges.push_back({length_squared, low, high});
+    }
   std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
 }
 
