@@ -164,7 +164,6 @@ Assessment assess(const Case& run_case, const std::vector<BubbleShape>& bubbles)
   const double mu = materials.gas.viscosity;            // μ_g [Pa s]
   const double rho = materials.gas.density;             // ρ_g [kg/m³]
   const double sigma = materials.film.surface_tension;  // σ [N/m]
-  const double lambda = run_case.foam.border_area;      // λ [m²]
 
   Assessment a{};
   a.h = box.spacing();
@@ -175,11 +174,15 @@ Assessment assess(const Case& run_case, const std::vector<BubbleShape>& bubbles)
   if (!run_case.foam.films) a.step_limits = step_limits(run_case, a.h, a.mean_diameter);
   a.laplace_number = 2 * sigma * rho * a.mean_diameter / (mu * mu);
   a.foam = estimate(run_case, bubbles);
+  double lambda = run_case.foam.border_area;  // λ [m²]
   a.liquid_volume =
-      run_case.foam.films
-          ? simulation::load_films(*run_case.foam.films, run_case.foam.lamella_half_thickness, lambda)
-                .liquid.total()
-          : 2 * run_case.foam.lamella_half_thickness * a.foam.film_area + lambda * a.foam.border_length;
+      2 * run_case.foam.lamella_half_thickness * a.foam.film_area + lambda * a.foam.border_length;
+  if (run_case.foam.films) {
+    const auto liquid =
+        simulation::load_films(*run_case.foam.films, run_case.foam.lamella_half_thickness, lambda).liquid;
+    a.liquid_volume = liquid.total();
+    lambda = a.foam.border_length > 0 ? liquid.in_borders() / a.foam.border_length : 0;
+  }
   a.liquid_fraction = a.liquid_volume / a.foam.gas_volume;
   a.border_radius = std::sqrt(lambda / (std::numbers::sqrt3 - std::numbers::pi / 2));
   estimate_cost(a, run_case.rearrangement.interface == Interface::Viim);
