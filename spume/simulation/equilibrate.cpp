@@ -79,7 +79,8 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
   // Flat triangles have too much area for their volumes, by the square of their edges: the films come to rest
   // on the ordinary mesh, and once more on a finer one.
   Case fine_case = run_case;
-  fine_case.reconstruct.edge = 0.68;
+  fine_case.reconstruct.edge = 0.65;
+  fine_case.reconstruct.remesh.split_above = 1.25;
   bool is_fine = false;
   Pace pace(mean_bubble_radius(foam.phases));
   Remainder remainder;
