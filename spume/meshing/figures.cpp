@@ -46,7 +46,8 @@ void measure_distances(const mesh::FilmMesh& films, const mesh::Topology& topolo
                        const mesh::Projection& project, MeshFigures& figures) {
   std::vector<char> drawn_together(films.n_vertices(), 0);
   for (int v : topology.junction)
-    drawn_together[v] = !project(films.position[v], topology.vertex_phases[v]).has_value();
+    drawn_together[v] = topology.vertex_phases[v].size() > 4 ||
+                        !project(films.position[v], topology.vertex_phases[v]).has_value();
   figures.n_drawn_together = static_cast<int>(std::count(drawn_together.begin(), drawn_together.end(), 1));
   const auto measure = [&](int v, const mesh::PhaseSet& phases, double& largest) {
     if (const auto there = project(films.position[v], phases))
