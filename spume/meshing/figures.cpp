@@ -44,9 +44,12 @@ void measure_shapes(const mesh::FilmMesh& films, MeshFigures& figures) {
 
 void measure_distances(const mesh::FilmMesh& films, const mesh::Topology& topology,
                        const mesh::Projection& project, MeshFigures& figures) {
-  const auto is_crowded = [&](int v) { return topology.vertex_phases[v].size() > 4; };
+  std::vector<char> drawn_together(films.n_vertices(), 0);
+  for (int v : topology.junction)
+    drawn_together[v] = topology.vertex_phases[v].size() > 4 ||
+                        !project(films.position[v], topology.vertex_phases[v]).has_value();
+  figures.n_drawn_together = static_cast<int>(std::count(drawn_together.begin(), drawn_together.end(), 1));
   const auto measure = [&](int v, const mesh::PhaseSet& phases, double& largest) {
-    if (is_crowded(v)) return;
     if (const auto there = project(films.position[v], phases))
       largest = std::max(largest, norm(films.domain.step(films.position[v], *there)));
     else
@@ -54,13 +57,13 @@ void measure_distances(const mesh::FilmMesh& films, const mesh::Topology& topolo
   };
   for (const mesh::FilmDof& dof : topology.film_dof) {
     const auto& lamella = topology.lamella[dof.lamella];
-    measure(dof.vertex, {lamella.phase_a, lamella.phase_b}, figures.film_distance);
+    measure(dof.vertex, {lamella.phase_a, lamella.phase_b},
+            drawn_together[dof.vertex] ? figures.drawn_together_distance : figures.film_distance);
   }
   for (const mesh::BorderDof& dof : topology.border_dof) {
     const auto& p = topology.border[dof.border].phases;
-    measure(dof.vertex, {p[0], p[1], p[2]}, figures.border_distance);
+    if (!drawn_together[dof.vertex]) measure(dof.vertex, {p[0], p[1], p[2]}, figures.border_distance);
   }
-  for (int v : topology.junction) figures.n_crowded += is_crowded(v);
 }
 
 }  // namespace

@@ -19,8 +19,9 @@ struct MeshFigures {
   double film_distance = 0;    ///< largest of a vertex from a film it belongs to [m]
   double border_distance = 0;  ///< largest of a vertex from a triple line it belongs to [m]
   int n_unprojected = 0;       ///< pairs of a vertex and its film or border for which no projection was found
-  int n_crowded = 0;  ///< vertices where more than four phases meet. Five films have no point in common, so
-                      ///< these count in neither distance
+  int n_drawn_together = 0;    ///< junctions whose phases have no point in common, as where a reconstruction
+                               ///< draws several junctions together: in neither distance
+  double drawn_together_distance = 0;  ///< largest of one of those from a film that ends there [m]
 };
 
 /// Measures a mesh with at least one triangle; distances are those that `project` moves the vertices by, onto

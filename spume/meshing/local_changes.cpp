@@ -136,7 +136,7 @@ bool LocalChanges::fill_corner(int triangle, int corner) {
 /// Whether one triangle may fill the corner at e.a, with the vertex e.b at `place`, or drawn into `gone`
 /// there if that is not −1.
 bool LocalChanges::fills_well(const Hinge& e, const Vec3& place, int gone) const {
-  constexpr double least_angle = 15;  // [degrees]; moves and repairs that follow make it better
+  constexpr double least_angle = 24;  // [degrees]; moves and repairs that follow make it better
   const Vec3 tip = m_.films.domain.near(m_.films.position[e.a], place),
              apex = m_.films.domain.near(m_.films.position[e.apex], place),
              beyond = m_.films.domain.near(m_.films.position[e.beyond], place);

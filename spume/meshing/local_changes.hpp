@@ -25,7 +25,7 @@ class LocalChanges {
   bool absorb_if_better(int triangle, int corner);
   /// Flips the side if it is the only edge that runs from a junction into this corner of a film, so that one
   /// triangle fills the corner. Its other end is drawn into a neighbour, if need be; not if an angle
-  /// below 15 degrees would come of it.
+  /// below 24 degrees would come of it.
   bool fill_corner(int triangle, int corner);
 
  private:

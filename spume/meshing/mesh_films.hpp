@@ -19,7 +19,7 @@ struct MeshingParameters {
   double finest_at_borders = 0.35;   ///< nor below this [h]
   double layer_width = 0;  ///< of the boundary layer [m], see drainage_layer_width(); 0: as wide as need be
   double edge_at_junctions = 0;        ///< target edge where borders meet [m]; 0: as at borders
-  double smallest_edge = 0.04;         ///< target around short borders and in narrow films, at least [h]
+  double smallest_edge = 0.15;         ///< target around short borders and in narrow films, at least [h]
   double grading = 0.3;                ///< growth of the target a unit of distance from the border
   int sweeps = 20;                     ///< of moves by forces
   bool one_triangle_a_corner = true;   ///< at junctions, where the corner of the film allows it

@@ -63,9 +63,10 @@ int move_vertices(StarMesh& m, const mesh::Projection& project, std::span<const 
 std::optional<Vec3> belonging(const StarMesh& m, const mesh::Projection& project, int v) {
   constexpr int n_rounds = 30;
   const Vec3& start = m.films.position[v];
-  const auto there = project(start, m.work.phases[v]);
-  if (there || m.work.kind(v) != mesh::VertexKind::Junction) return there;
-
+  if (m.work.phases[v].size() <= 4) {
+    const auto there = project(start, m.work.phases[v]);
+    if (there || m.work.kind(v) != mesh::VertexKind::Junction) return there;
+  }
   std::vector<mesh::PhaseSet> films;
   for (int t : m.star[v]) {
     const mesh::PhaseSet pair{m.films.triangle[t].phase_a, m.films.triangle[t].phase_b};

@@ -25,7 +25,7 @@ RepairReport repair(StarMesh& star_mesh, const mesh::Projection& project, std::s
                     double wanted_degrees);
 
 /// Flips edges that run from a junction to the inside of a film between two triangles alone, so that one
-/// triangle fills the corner of the film, where that leaves no angle below 15 degrees. The vertex of a corner
+/// triangle fills the corner of the film, where that leaves no angle below 24 degrees. The vertex of a corner
 /// then has no link into its film, as drainage wants it. Gives the number of flips.
 int fill_corners(StarMesh& star_mesh, const mesh::Projection& project);
 

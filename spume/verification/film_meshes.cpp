@@ -24,8 +24,8 @@ constexpr double cells_per_radius = 5;
 /// How one network was meshed.
 struct Meshing {
   meshing::MeshFigures figures;
-  double film_distance, border_distance;  // [h]
-  double seconds;                         // of processor time
+  double film_distance, border_distance, drawn_together_distance;  // [h]
+  double seconds;                                                  // of processor time
 };
 
 /// One network, meshed uniformly and graded.
@@ -63,6 +63,7 @@ Meshing mesh_films(mesh::FilmMesh films, const mesh::Projection& project, const 
   meshing.figures = meshing::figures_of(films, topology, project);
   meshing.film_distance = meshing.figures.film_distance / h;
   meshing.border_distance = meshing.figures.border_distance / h;
+  meshing.drawn_together_distance = meshing.figures.drawn_together_distance / h;
   return meshing;
 }
 
@@ -181,8 +182,10 @@ void judge(const std::vector<Network>& networks, Meshing Network::*which, Report
                  0.02, source);
   report.told("largest number of vertices without projection",
               most([](auto& m) { return m.figures.n_unprojected; }), "");
-  report.told("largest number of vertices of five phases or more",
-              most([](auto& m) { return m.figures.n_crowded; }), "");
+  report.told("largest number of junctions drawn together",
+              most([](const Meshing& m) { return m.figures.n_drawn_together; }), "");
+  report.told("farthest of those from a film that ends there [h]",
+              most([](const Meshing& m) { return m.drawn_together_distance; }), "");
   double spent = 0;
   for (const Network& n : networks) spent += (n.*which).seconds;
   report.told("processor time over that of a contour", spent / total(networks, &Network::contour_seconds),

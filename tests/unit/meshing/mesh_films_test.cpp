@@ -60,6 +60,7 @@ void expect_good_mesh(const mesh::FilmMesh& films, const mesh::Topology& before,
   EXPECT_GE(figures.median_angle_degrees, 45);
   EXPECT_GE(figures.share_round, 0.99);
   EXPECT_EQ(figures.n_unprojected, 0);
+  EXPECT_EQ(figures.n_drawn_together, 0);
   EXPECT_LT(figures.film_distance, 1e-10 * radius);
   EXPECT_LT(figures.border_distance, 1e-10 * radius);
 }
