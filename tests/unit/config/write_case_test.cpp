@@ -67,6 +67,8 @@ scheme = "paper"
 max_time = 33
 tolerance = 0.01
 max_step = 2
+edge_at_borders = 3e-5
+edge_at_junctions = 1e-5
 [rupture]
 threshold = 1e-8
 criterion = "node"
