@@ -1,13 +1,14 @@
 // Drainage of the foam of the paper's Fig. 15 to 16.1 s on meshes of different size, graded to the borders:
 // wall and processor time, steps, and what each part of the steps takes. The accepted steps of one run are
-// repeated part by part for the shares, on the equations of the program. Usage: bench_drainage [--triangles
-// 20000 200000]
+// repeated part by part for the shares, each from where it started, on the equations of the program. Usage:
+// bench_drainage [--triangles 20000 200000]
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "spume/base/stage_times.hpp"
@@ -45,20 +46,28 @@ state::FilmNetwork cluster(int n_triangles) {
   return network;
 }
 
+struct Step {
+  double length;
+  std::vector<double> half_thickness, border_area;  ///< where it started
+};
+
 struct Run {
   double seconds, processor_seconds;
-  std::vector<double> steps;
+  std::vector<Step> steps;
   drainage::DrainageOutcome outcome;
 };
 
 Run drain(state::FilmNetwork network) {
   Run run{};
+  std::vector<double> half_thickness = network.half_thickness, border_area = network.border_area;
   const double start = wall(), processor_start = processor_time();
   run.outcome = drainage::drain(
       network, verification::fig15_materials(), {.max_time = 16.1, .tolerance = 0.02, .max_step = 10}, 0,
       [](const auto&) { return state::ThinPoint{}; },
-      [&](const drainage::DrainageProgress& progress, const auto&) {
-        run.steps.push_back(progress.step);
+      [&](const drainage::DrainageProgress& progress, const state::FilmNetwork& now) {
+        run.steps.push_back({progress.step, std::move(half_thickness), std::move(border_area)});
+        half_thickness = now.half_thickness;
+        border_area = now.border_area;
         return true;
       });
   run.seconds = wall() - start;
@@ -67,12 +76,12 @@ Run drain(state::FilmNetwork network) {
 }
 
 /// The steps once more, part by part.
-StageTimes shares(const state::FilmNetwork& network, const std::vector<double>& steps) {
+StageTimes shares(state::FilmNetwork network, const std::vector<Step>& steps) {
   constexpr double gamma = 1 - 1 / std::numbers::sqrt2;
   StageTimes times;
   drainage::DrainageEquations equations(network, verification::fig15_materials());
   times.lap("set-up, orderings");
-  drainage::Unknowns y = equations.read(network), k1, k2, stage = y;
+  drainage::Unknowns y, k1, k2, stage;
   const auto add = [](std::vector<double>& to, double factor, const std::vector<double>& k) {
     for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * k[i];
   };
@@ -81,7 +90,10 @@ StageTimes shares(const state::FilmNetwork& network, const std::vector<double>& 
     for (std::size_t i = 0; i < k.border.size(); ++i)
       right.border[i] -= 2 * equations.border_length()[i] * k.border[i];
   };
-  for (const double dt : steps) {
+  for (const auto& [dt, half_thickness, border_area] : steps) {
+    network.half_thickness = half_thickness;
+    network.border_area = border_area;
+    y = equations.read(network);
     times.restart();
     equations.rates(y, k1);
     equations.linearise(y);
@@ -98,10 +110,6 @@ StageTimes shares(const state::FilmNetwork& network, const std::vector<double>& 
     times.lap("assembly");
     equations.solve(k2);
     times.lap("solves");
-    for (const auto& [factor, k] : {std::pair(1.5 * dt, &k1), std::pair(0.5 * dt, &k2)}) {
-      add(y.film, factor, k->film);
-      add(y.border, factor, k->border);
-    }
   }
   return times;
 }

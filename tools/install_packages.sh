@@ -7,6 +7,7 @@ packages=(
   g++ cmake ninja-build make ccache pkg-config git ca-certificates
   libopenmpi-dev openmpi-bin petsc-dev
   libfftw3-dev libfftw3-mpi-dev libeigen3-dev libsuitesparse-dev
+  libopenblas0-serial # the BLAS of UMFPACK and PETSc; the reference BLAS is much slower
   libvtk9-dev libhdf5-openmpi-dev
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev
   libembree-dev libpng-dev

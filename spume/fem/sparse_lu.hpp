@@ -10,14 +10,14 @@ namespace spume::fem {
 class SparseLu {
  public:
   /// A square matrix by columns: the rows of column j are row[column_offset[j] … column_offset[j+1]),
-  /// increasing.
+  /// increasing. Fastest if the pattern is symmetric or nearly so and has every diagonal entry.
   SparseLu(std::span<const int> column_offset, std::span<const int> row);
   ~SparseLu();
   SparseLu(SparseLu&&) noexcept;
   SparseLu& operator=(SparseLu&&) noexcept;
 
   /// Factorises the matrix with these values, in the order of the pattern.
-  /// False if it is singular to working precision or not finite; then solve() must not be called.
+  /// False if it is singular or not finite; then solve() must not be called.
   bool factorise(std::span<const double> value);
 
   /// Replaces the right side by the solution of A x = right.
