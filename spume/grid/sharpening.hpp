@@ -7,8 +7,8 @@ namespace spume::grid {
 
 /// Makes up for the width of the kernel that couples films and grid: S = 1 + aλ + bλ², λ = −h² Δ_h with the
 /// 7-point Laplacian Δ_h. What was spread is sharpened before the gas feels it, and the velocity of the gas
-/// before it is sampled; S is symmetric, so the pair of operators stays adjoint, and it leaves a velocity on
-/// faces as free of divergence as it was.
+/// before it is sampled; S is symmetric, so the pair of operators stays adjoint, and away from no-slip walls
+/// it leaves a velocity on faces as free of divergence as it was.
 ///
 /// The cubic spline alone would be undone to fourth order by a = 1/6, b = 7/240. The values here are not
 /// derived: with them a film wave is nearest to the exact law from 8 to 64 cells a wavelength, in a linear

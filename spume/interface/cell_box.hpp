@@ -78,16 +78,6 @@ struct Lattice {
     }
     return g;
   }
-  /// Whether two blocks have a cell in common.
-  bool overlap(const CellBox& a, const CellBox& b) const {
-    for (int d = 0; d < 3; ++d) {
-      const int from_a = image(b.begin[d], a.begin[d], d);  // in front of the end of a, or of a's next image
-      const bool ahead = periodic[d] && from_a + (b.end[d] - b.begin[d]) > a.begin[d] + cells[d];
-      if (periodic[d] ? from_a >= a.end[d] && !ahead : a.begin[d] >= b.end[d] || b.begin[d] >= a.end[d])
-        return false;
-    }
-    return true;
-  }
 };
 
 inline Lattice lattice_of(const grid::Box& box) {

@@ -112,9 +112,10 @@ class FieldBins {
 
 class Contourer {
  public:
-  Contourer(const PhasePotentials& potentials, const std::vector<mesh::Phase>& winner)
+  Contourer(const PhasePotentials& potentials, const std::vector<mesh::Phase>& winner, Pieces pieces)
       : potentials_(potentials),
         winner_(winner),
+        pieces_(pieces),
         bins_(potentials),
         whole_(all_cells(potentials.box().cells)) {
     films_.domain = potentials.box().domain();
@@ -138,7 +139,10 @@ class Contourer {
             }
         }
     };
-    for_each_mixed_cube([&](CubeKind& kind) { kind = n_cube_ == 2 ? CubeKind::OneFilm : CubeKind::Several; });
+    for_each_mixed_cube([&](CubeKind& kind) {
+      const bool one_film = pieces_ == Pieces::OfCubes && n_cube_ == 2 && !has_ambiguous_face();
+      kind = one_film ? CubeKind::OneFilm : CubeKind::Several;
+    });
     for_each_mixed_cube([&](CubeKind& kind) {
       if (kind == CubeKind::OneFilm)
         contour_one_film();
@@ -182,6 +186,17 @@ class Contourer {
     const Lattice& lattice = potentials_.lattice();
     return whole_.offset(lattice.image(i + (corner & 1), 0, 0), lattice.image(j + (corner >> 1 & 1), 0, 1),
                          lattice.image(k + (corner >> 2), 0, 2));
+  }
+
+  /// A line that visits a face twice could be filled by a diagonal in that face, on both its sides.
+  bool has_ambiguous_face() const {
+    const auto& w = cube_winner_;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3;
+      for (int o : {0, 1 << axis})
+        if (w[o] == w[o | u | v] && w[o | u] == w[o | v] && w[o] != w[o | u]) return true;
+    }
+    return false;
   }
 
   /// The film of two phases in a cube where no other competes: closed lines on the faces of the cube, filled.
@@ -455,6 +470,7 @@ class Contourer {
 
   const PhasePotentials& potentials_;
   const std::vector<mesh::Phase>& winner_;
+  Pieces pieces_;
   FieldBins bins_;
   CellBox whole_;
   mesh::FilmMesh films_;
@@ -478,8 +494,9 @@ class Contourer {
 
 }  // namespace
 
-mesh::FilmMesh contour(const PhasePotentials& potentials, const std::vector<mesh::Phase>& winner) {
-  return Contourer(potentials, winner).run();
+mesh::FilmMesh contour(const PhasePotentials& potentials, const std::vector<mesh::Phase>& winner,
+                       Pieces pieces) {
+  return Contourer(potentials, winner, pieces).run();
 }
 
 }  // namespace spume::interface

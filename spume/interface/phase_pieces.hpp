@@ -45,9 +45,9 @@ PhasePieces find_pieces(const Lattice& lattice, const std::vector<mesh::Phase>& 
 bool separate_pieces(PhasePotentials& potentials, const Winners& winners, state::Phases& phases,
                      double smallest_volume, std::vector<PhaseChange>& changes);
 
-/// Gives target volumes to the phases born by changes[first …], from the volumes measured on the mesh: pieces
-/// of a bubble share its target in proportion to their volumes, pockets get what was measured. Volumes in
-/// `changes` follow.
+/// Gives target volumes to the phases born by changes[first …], from the volumes of their smooth films:
+/// pieces of a bubble share its target in proportion to their volumes, pockets get what was measured. Volumes
+/// in `changes` follow.
 void settle_new_phases(const mesh::FilmMesh& films, const mesh::Topology& topology, state::Phases& phases,
                        std::vector<PhaseChange>& changes, std::size_t first);
 

@@ -67,9 +67,12 @@ void check_length(const std::filesystem::path& path, vtkImageData& data) {
   }
   const bool in_one_file = data_file.find('%') == std::string::npos && data_file.rfind("LIST", 0) != 0;
   if (compressed || !in_one_file) return;
-  const std::filesystem::path held_in = data_file == "LOCAL" ? path : path.parent_path() / data_file;
-  const std::int64_t header = data_file == "LOCAL" ? static_cast<std::int64_t>(stream.tellg()) : 0;
-  const auto held = static_cast<std::int64_t>(std::filesystem::file_size(held_in)) - header;
+  const bool is_local = data_file == "LOCAL" || data_file == "Local" || data_file == "local";
+  const std::filesystem::path held_in = is_local ? path : path.parent_path() / data_file;
+  const std::int64_t header = is_local ? static_cast<std::int64_t>(stream.tellg()) : 0;
+  std::error_code unknown;
+  const auto held = static_cast<std::int64_t>(std::filesystem::file_size(held_in, unknown)) - header;
+  if (unknown) return;
   if (held < data.GetNumberOfPoints() * data.GetScalarSize())
     throw InputError(fmt::format("{}: damaged: {} is cut short", path.string(), held_in.string()));
 }

@@ -2,8 +2,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
 #include "spume/base/union_find.hpp"
 #include "spume/mesh/phase_frames.hpp"
@@ -50,23 +48,6 @@ double film_area(const FilmMesh& mesh) {
   return area;
 }
 
-namespace {
-
-/// Where bubbles fill a periodic box and one goes through it in all directions, that one has what the others
-/// leave. If its films are in one place it is around them, and they enclose what it has not.
-void give_rest_to_endless_phase(const FilmMesh& mesh, std::vector<double>& volume) {
-  const auto is_endless = [](double v) { return !(v >= 0); };
-  const auto endless = std::find_if(volume.begin() + 1, volume.end(), is_endless);
-  if (endless == volume.end() || std::any_of(endless + 1, volume.end(), is_endless)) return;
-  const bool meets_outside =
-      std::any_of(mesh.triangle.begin(), mesh.triangle.end(), [](const auto& t) { return t.phase_a == 0; });
-  if (meets_outside) return;
-  volume[0] = *endless = 0;
-  *endless = mesh.domain.volume() - std::accumulate(volume.begin(), volume.end(), 0.0);
-}
-
-}  // namespace
-
 std::vector<double> phase_volumes(const FilmMesh& mesh, int n_phases) {
   const PhaseFrames frames(mesh, n_phases);
   std::vector<double> volume(n_phases, 0.0);
@@ -79,7 +60,6 @@ std::vector<double> phase_volumes(const FilmMesh& mesh, int n_phases) {
   }
   volume[0] = 0;
   for (Phase p = 1; p < n_phases; ++p) volume[0] -= volume[p] = frames.volume(p, volume[p]);
-  give_rest_to_endless_phase(mesh, volume);
   return volume;
 }
 

@@ -13,8 +13,8 @@ double largest_distance(std::span<const Vec3> a, std::span<const Vec3> b);
 /// Σ of triangle areas, every film once [m²].
 double film_area(const FilmMesh& mesh);
 /// Volume of every phase by the divergence theorem [m³], indexed by phase; the entry of the outside is minus
-/// the rest. A bubble that goes through a periodic box in all three directions has what the others leave of
-/// the box; not a number if there are two of them, or an outside too.
+/// the rest. Not a number for a bubble that goes through a periodic box in all three directions; minus what
+/// they enclose for one that is around all its films.
 std::vector<double> phase_volumes(const FilmMesh& mesh, int n_phases);
 /// Area of the films of each phase [m²], indexed by phase.
 std::vector<double> phase_areas(const FilmMesh& mesh, int n_phases);

@@ -21,7 +21,8 @@ double max_volume_error(const state::Foam& foam) {
   for (mesh::Phase p = 1; p < foam.phases.count(); ++p) {
     if (!foam.phases.is_bubble(p)) continue;
     const double error = std::abs(volume[p] / foam.phases.target_volume[p] - 1);
-    if (!(error <= largest)) largest = error;
+    if (std::isnan(error)) return error;
+    largest = std::max(largest, error);
   }
   return largest;
 }

@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
+#include <vector>
 
 #include "analytic_foams.hpp"
+#include "spume/base/random.hpp"
 #include "spume/mesh/measure.hpp"
 #include "spume/mesh/topology.hpp"
 
@@ -29,6 +32,32 @@ TEST(Contour, OfRandomBubblesIsConforming) {
     EXPECT_GE(topology.n_lamellae(), n_bubbles);
     const auto volume = mesh::phase_volumes(films, n_bubbles + 1);
     for (int p = 1; p <= n_bubbles; ++p) EXPECT_GT(volume[p], 0) << "normals point out of phase " << p;
+  }
+}
+
+// Corners of a face that lie alternately in one phase and the other, as in necks about to open.
+TEST(Contour, OfTwoPhasesInThinNecksIsConforming) {
+  const grid::Box box = testing::cube_box(24);
+  for (int seed = 1; seed <= 8; ++seed) {
+    Random random(seed);
+    struct Wave {
+      Vec3 k;
+      double shift;
+    };
+    std::vector<Wave> waves;
+    for (int n = 0; n < 12; ++n) {
+      const auto number = [&] { return std::floor(random.uniform(-8, 9)); };  // of periods of the box
+      const Vec3 m{number(), number(), number()};
+      waves.push_back({2 * M_PI / (24 * h) * m, random.uniform(0, 2 * M_PI)});
+    }
+    const auto noise = [&](mesh::Phase p, const Vec3& x) {
+      double sum = 0;
+      for (const Wave& wave : waves) sum += std::cos(dot(wave.k, x) + wave.shift);
+      return (p == 1 ? 1 : -1) * h * sum;
+    };
+    const auto films = contour_of(testing::sampled(box, noise, 2));
+    EXPECT_GT(films.n_triangles(), 1000);
+    EXPECT_EQ(mesh::build_topology(films).n_nonconforming_edges, 0) << "seed " << seed;
   }
 }
 

@@ -26,6 +26,7 @@ void fill(state::Foam& foam) {
   foam.films = shapes::four_bubbles(1e-3 / 3, 3);
   const auto topology = mesh::build_topology(foam.films);
   foam.phases.target_volume = {0, 1e-9 / 3, 0, 1e-9 / 7, 5e-324};
+  foam.phases.above_membrane = 3;
   for (std::size_t d = 0; d < topology.film_dof.size(); ++d)
     foam.liquid.lamella_volume.push_back(1e-14 / (d + 3));
   for (std::size_t d = 0; d < topology.border_dof.size(); ++d)
@@ -54,6 +55,7 @@ void expect_same_bits(const state::Foam& a, const state::Foam& b) {
     EXPECT_EQ(a.films.triangle[t].phase_b, b.films.triangle[t].phase_b);
   }
   EXPECT_EQ(a.phases.target_volume, b.phases.target_volume);
+  EXPECT_EQ(a.phases.above_membrane, b.phases.above_membrane);
   EXPECT_EQ(a.liquid.lamella_volume, b.liquid.lamella_volume);
   EXPECT_EQ(a.liquid.border_volume, b.liquid.border_volume);
   EXPECT_EQ(a.liquid.lamella_is_young, b.liquid.lamella_is_young);

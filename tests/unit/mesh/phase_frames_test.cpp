@@ -52,29 +52,5 @@ TEST(PhaseFrames, MeasureALayerBetweenWalls) {
   EXPECT_NEAR(phase_volumes(film, 2)[1] / (n * n * 2.5 * h * h * h), 1, 1e-12);
 }
 
-/// Bubbles 2 and 3 as balls in bubble 1, which fills the rest of a periodic box.
-TEST(PhaseFrames, GiveABubbleWithoutBoundWhatOthersLeaveOfTheBox) {
-  const double edge = 8 * h;
-  for (const double radius : {1.0 * h, 2.1 * h}) {  // with room around the balls, and with none
-    FilmMesh films;
-    for (const Phase p : {2, 3}) {
-      const double at = p == 2 ? -2 * h : 2 * h;
-      const FilmMesh ball = shapes::sphere({at, at, at}, radius, 2, p);
-      const int first = films.n_vertices();
-      films.position.insert(films.position.end(), ball.position.begin(), ball.position.end());
-      for (const FilmTriangle& t : ball.triangle) {
-        films.triangle.push_back(t);
-        for (int& v : films.triangle.back().vertex) v += first;
-      }
-    }
-    const double in_balls = phase_volumes(films, 4)[2] + phase_volumes(films, 4)[3];
-    for (FilmTriangle& t : films.triangle) t.phase_a = 1;
-    films.domain = cube(edge);
-    const auto volume = phase_volumes(films, 4);
-    EXPECT_NEAR(volume[1] / (std::pow(edge, 3) - in_balls), 1, 1e-13);
-    EXPECT_EQ(volume[0], 0);
-  }
-}
-
 }  // namespace
 }  // namespace spume::mesh
