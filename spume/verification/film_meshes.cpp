@@ -45,7 +45,7 @@ double seconds(const StageTimes& times, std::string_view stage) {
   return sum;
 }
 
-meshing::MeshingParameters with_edge_at_borders(double edge) {
+meshing::MeshingParameters with_coarsest_at_borders(double edge) {
   meshing::MeshingParameters parameters;
   parameters.coarsest_at_borders = edge;
   return parameters;
@@ -55,7 +55,7 @@ meshing::MeshingParameters with_edge_at_borders(double edge) {
 Meshing mesh_films(mesh::FilmMesh films, const mesh::Projection& project, const state::Phases& phases,
                    double h, double edge_at_borders, mesh::Topology& topology) {
   const double start = processor_time();
-  meshing::improve(films, project, h, with_edge_at_borders(edge_at_borders));
+  meshing::improve(films, project, h, with_coarsest_at_borders(edge_at_borders));
   Meshing meshing{};
   meshing.seconds = processor_time() - start;
   mesh::restore_volumes(films, phases.target_volume, 3, 0.1 * h);
@@ -69,7 +69,6 @@ Meshing mesh_films(mesh::FilmMesh films, const mesh::Projection& project, const 
 
 /// Makes the meshes for drainage of a foam as it is, leaving the foam alone.
 Network mesh_network(FoamRun& run, const std::string& name) {
-  constexpr int n_contours = 3;  // of a reconstruction that restores volumes
   constexpr double fine = 0.3;
   state::Phases phases = run.foam().phases;
   const double h = run.grid().h();
@@ -91,8 +90,8 @@ Network mesh_network(FoamRun& run, const std::string& name) {
   network.graded = mesh_films(reconstruction.films, project, phases, h, fine, graded);
   network.same_foam = is_same(uniform) && is_same(graded);
   const auto& times = reconstruction.report.times;
-  network.contour_seconds = seconds(times, "contour") / n_contours;
-  network.new_seconds = network.contour_seconds + seconds(times, "projection") / n_contours;
+  network.contour_seconds = seconds(times, "contour");
+  network.new_seconds = network.contour_seconds + seconds(times, "projection");
   return network;
 }
 

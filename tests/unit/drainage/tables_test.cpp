@@ -11,7 +11,7 @@
 namespace spume::verification {
 namespace {
 
-constexpr double printed = 2e-5;
+constexpr double printed = 7e-6;
 
 TEST(Table3, printed_errors_come_out_of_the_published_border_scheme) {
   const auto coarse = published_border_error(32, 32), fine = published_border_error(64, 64),
