@@ -39,8 +39,8 @@ class PaperLamella {
 
   /// Replaces η^n [m] by η^{n+1}, whatever its sign: the caller checks. `load` holds what comes in through
   /// the boundary and from elsewhere, such as −½ ∫ Q φ over the boundary [m³/s]. False where η is not finite,
-  /// or where the iteration for it leaves more than 1e-6 of the residual (norm) that it began with. Paper:
-  /// Sec. 3.3.2, Eq. (9).
+  /// or where the iteration leaves more than 1e-6 of the norm of the residual that it began with.
+  /// Paper: Sec. 3.3.2, Eq. (9).
   ///   (η^{n+1} − η^n)/Δt + α (σ/3μ) Δ_s² (η^{n+1} − η^n) + ∇_s·Q(η^n) = 0,   α = 2 max η³,   ∂η/∂ν = 0
   bool advance(double dt, std::span<const double> load, std::span<double> eta);
 
