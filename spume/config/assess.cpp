@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "spume/config/text.hpp"
+#include "spume/io/film_frame.hpp"
 #include "spume/mesh/measure.hpp"
 #include "spume/simulation/cluster.hpp"
 #include "spume/simulation/film_source.hpp"
@@ -89,7 +90,7 @@ void warn_of_grid(Assessment& a) {
                     a.smallest_diameter / a.h, enough_cells));
 }
 
-void warn_of_liquid(Assessment& a, const Case& run_case) {
+void warn_of_liquid(Assessment& a, const Case& run_case, double thinnest) {
   constexpr double dry = 0.1, slender = 0.2;
   if (a.liquid_fraction > dry)
     a.warnings.push_back(
@@ -100,7 +101,7 @@ void warn_of_liquid(Assessment& a, const Case& run_case) {
         "Plateau borders have a radius of {:.2g} m, {:.0f} % of that of the smallest bubble: the model "
         "takes them for thin lines, below {:.0f} %",
         a.border_radius, 200 * a.border_radius / a.smallest_diameter, 100 * slender));
-  if (run_case.rupture.threshold >= run_case.foam.lamella_half_thickness)
+  if (run_case.rupture.threshold >= thinnest)
     a.warnings.push_back("films start below the rupture threshold: they break at once");
 }
 
@@ -177,17 +178,19 @@ Assessment assess(const Case& run_case, const std::vector<BubbleShape>& bubbles)
   double lambda = run_case.foam.border_area;  // λ [m²]
   a.liquid_volume =
       2 * run_case.foam.lamella_half_thickness * a.foam.film_area + lambda * a.foam.border_length;
+  double thinnest = run_case.foam.lamella_half_thickness;  // η [m]
   if (run_case.foam.films) {
-    const auto liquid =
-        simulation::load_films(*run_case.foam.films, run_case.foam.lamella_half_thickness, lambda).liquid;
-    a.liquid_volume = liquid.total();
-    lambda = a.foam.border_length > 0 ? liquid.in_borders() / a.foam.border_length : 0;
+    const auto sourced =
+        simulation::load_films(*run_case.foam.films, run_case.foam.lamella_half_thickness, lambda);
+    a.liquid_volume = sourced.liquid.total();
+    lambda = a.foam.border_length > 0 ? sourced.liquid.in_borders() / a.foam.border_length : 0;
+    thinnest = std::ranges::min(io::half_thickness(sourced.films, sourced.topology, sourced.liquid));
   }
   a.liquid_fraction = a.liquid_volume / a.foam.gas_volume;
   a.border_radius = std::sqrt(lambda / (std::numbers::sqrt3 - std::numbers::pi / 2));
   estimate_cost(a, run_case.rearrangement.interface == Interface::Viim);
   if (!run_case.foam.films) warn_of_grid(a);
-  warn_of_liquid(a, run_case);
+  warn_of_liquid(a, run_case, thinnest);
   warn_of_pockets(a, run_case);
   if (run_case.rearrangement.interface == Interface::Viim &&
       run_case.rearrangement.dynamics == simulation::RearrangementParameters::Dynamics::Quasistatic)

@@ -176,6 +176,32 @@ void check_films(const Case& run_case, const Entries& entries, Problems& problem
     }
 }
 
+/// Edges far below a cell would make meshes that no machine holds; those beyond a cell have no effect.
+void check_edges(const Case& run_case, const Entries& entries, Problems& problems) {
+  constexpr double finest = 50;  // parts of a cell
+  const double h = run_case.box.spacing();
+  const double at_borders = run_case.meshing.edge_at_borders,
+               at_junctions = run_case.meshing.edge_at_junctions;
+  const auto check = [&](const char* key, double edge) {
+    if (edge == 0) return;
+    if (run_case.foam.films)
+      problems.add(entries.place_of(key),
+                   fmt::format("'{}' has no effect here: films of a file are not meshed", key));
+    else if (edge < h / finest || edge > h)
+      problems.add(entries.place_of(key),
+                   fmt::format("'{}' must be 0 or from {:.3g} to {:.3g} m, 1/{} of a cell of the grid to a "
+                               "whole one, not {}",
+                               key, h / finest, h, finest, edge));
+  };
+  check("drainage.edge_at_borders", at_borders);
+  check("drainage.edge_at_junctions", at_junctions);
+  if (at_borders > 0 && at_junctions > at_borders)
+    problems.add(
+        entries.place_of("drainage.edge_at_junctions"),
+        fmt::format("'drainage.edge_at_junctions' must be ≤ 'drainage.edge_at_borders', {} m, not {}",
+                    at_borders, at_junctions));
+}
+
 /// A foam starts in one way; a membrane goes with bubbles of a list or cluster.
 void check_one_start(const Case& run_case, const Entries& entries, Problems& problems) {
   const auto& foam = run_case.foam;
@@ -221,7 +247,10 @@ void check_pairs(const std::vector<std::array<int, 2>>& pairs, const std::string
 
 void cross_check(const Case& run_case, const Entries& entries, const std::vector<Place>& bubble_places,
                  Problems& problems) {
-  if (check_box(run_case, entries, problems)) check_bubbles(run_case, entries, bubble_places, problems);
+  if (check_box(run_case, entries, problems)) {
+    check_bubbles(run_case, entries, bubble_places, problems);
+    check_edges(run_case, entries, problems);
+  }
   using Interface = simulation::RearrangementParameters::Interface;
   if (run_case.rearrangement.interface == Interface::Viim &&
       (run_case.foam.lattice || run_case.foam.membrane))

@@ -48,8 +48,34 @@ std::vector<NumberedLamella> cut_into_lamellae(const state::FilmNetwork& network
   return lamellae;
 }
 
+/// At a junction the scheme knows ends of borders alone, each with two edges to take differences along.
+/// Elsewhere a border that touches itself would be two.
+void check_borders(const state::FilmNetwork& network) {
+  const auto& topology = network.topology;
+  const auto refuse = [&](int vertex, const std::string& what) {
+    throw InputError("the published drainage scheme cannot treat " + what + " at " +
+                     place_text(network.mesh.position[vertex]) +
+                     "; use a finer mesh or drainage.scheme = \"positive\"");
+  };
+  std::vector<int> n_edges(topology.border_dof.size(), 0);
+  for (const auto& edge : topology.border_edge)
+    for (int dof : edge.border_dof) ++n_edges[dof];
+  for (std::size_t d = 0; d < n_edges.size(); ++d) {
+    const int v = topology.border_dof[d].vertex;
+    if (n_edges[d] > 2) refuse(v, "a Plateau border that touches itself");
+    if (n_edges[d] == 2 && topology.vertex_kind[v] == mesh::VertexKind::Junction)
+      refuse(v, "a Plateau border that goes on through the junction");
+  }
+  for (const auto& border : topology.border)
+    if (!border.closed && border.vertices.size() < 3)
+      for (int v : {border.vertices.front(), border.vertices.back()})
+        if (topology.vertex_kind[v] == mesh::VertexKind::Junction)
+          refuse(v, "a Plateau border of a single edge that ends in the junction");
+}
+
 /// The borders of the network, one curve each, in their order.
 BorderCurves follow_borders(const state::FilmNetwork& network, const Vec3& gravity) {
+  check_borders(network);
   const auto& topology = network.topology;
   BorderCurves borders;
   std::map<int, std::vector<BorderTip>> tips;  // of each junction
@@ -104,8 +130,11 @@ class PaperStage {
     for (std::size_t n = 0; n < vertex_.size(); ++n) lambda_[n] = network_.border_area[vertex_[n]];
   }
 
+  /// Of the network [m³]: what is handed back, not what the stage took apart.
   double liquid() const {
-    double sum = borders_.liquid(lambda_);
+    std::vector<double> lambda;
+    for (int v : vertex_) lambda.push_back(network_.border_area[v]);
+    double sum = borders_.liquid(lambda);
     std::vector<double> eta;
     for (std::size_t l = 0; l < lamella_.size(); ++l) {
       gather(network_.half_thickness, l, eta);
@@ -124,7 +153,9 @@ class PaperStage {
       gather(network_.half_thickness, l, eta_);
       gather(film_load_, l, load_);
       if (!lamella_[l].advance(dt, load_, eta_))
-        fail(elapsed, dt, "η grows without bound: " + describe_thickest(l));
+        fail(
+            elapsed, dt,
+            "the equations of a film could not be solved, or η grows without bound: " + describe_thickest(l));
       for (std::size_t i = 0; i < eta_.size(); ++i) {
         if (!(eta_[i] > 0)) fail(elapsed, dt, describe_film_dof(network_, film_dof_[l][i], eta_[i]));
         network_.half_thickness[film_dof_[l][i]] = eta_[i];

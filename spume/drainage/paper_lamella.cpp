@@ -171,10 +171,10 @@ void PaperLamella::multiply(double s, std::span<const double> x, std::span<doubl
 
 bool PaperLamella::solve(double s, std::span<double> right) {
   constexpr int most_iterations = 100;
-  constexpr double tolerance = 1e-12;
+  constexpr double tolerance = 1e-12, enough = 1e-6;  // of the residual: aimed at, and accepted
   if (!std::isfinite(s) || !factorise(s)) return false;
   const std::size_t n = right.size();
-  const double target = tolerance * tolerance * dot_product(right, right);
+  const double first = dot_product(right, right);
   change_.assign(n, 0.0);
   product_.resize(n);
   double along = 0;  // r·P⁻¹r of the last iteration
@@ -194,10 +194,11 @@ bool PaperLamella::solve(double s, std::span<double> right) {
       change_[i] += length * direction_[i];
       right[i] -= length * product_[i];
     }
-    if (!(dot_product(right, right) > target)) break;
+    if (!(dot_product(right, right) > tolerance * tolerance * first)) break;
   }
+  const bool converged = std::isfinite(first) && dot_product(right, right) <= enough * enough * first;
   std::copy(change_.begin(), change_.end(), right.begin());
-  return std::all_of(right.begin(), right.end(), [](double v) { return std::isfinite(v); });
+  return converged && std::all_of(right.begin(), right.end(), [](double v) { return std::isfinite(v); });
 }
 
 }  // namespace spume::drainage

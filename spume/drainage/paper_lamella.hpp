@@ -38,7 +38,8 @@ class PaperLamella {
   double liquid(std::span<const double> eta) const;
 
   /// Replaces η^n [m] by η^{n+1}, whatever its sign: the caller checks. `load` holds what comes in through
-  /// the boundary and from elsewhere, such as −½ ∫ Q φ over the boundary [m³/s]. False where η is not finite.
+  /// the boundary and from elsewhere, such as −½ ∫ Q φ over the boundary [m³/s]. False where η is not finite,
+  /// or where the iteration leaves more than 1e-6 of the norm of the residual that it began with.
   /// Paper: Sec. 3.3.2, Eq. (9).
   ///   (η^{n+1} − η^n)/Δt + α (σ/3μ) Δ_s² (η^{n+1} − η^n) + ∇_s·Q(η^n) = 0,   α = 2 max η³,   ∂η/∂ν = 0
   bool advance(double dt, std::span<const double> load, std::span<double> eta);
@@ -52,7 +53,8 @@ class PaperLamella {
   void add_explicit_terms(std::span<const double> eta, std::span<double> right);
 
   /// Replaces the right side by the change of η; conjugate gradients with the factors of an earlier matrix,
-  /// since α changes little from step to step.
+  /// since α changes little from step to step. They go on to 1e-12 of the first residual; false where they
+  /// end above 1e-6 of it.
   /// Paper: Sec. 3.3.2, Eq. (11).
   ///   (M + s K M~⁻¹ K)(η^{n+1} − η^n) = right,   s = α Δt σ/3μ, M~ the row sums of M
   bool solve(double s, std::span<double> right);

@@ -10,8 +10,10 @@
 #include <vtkPolyData.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "spume/base/error.hpp"
 #include "spume/io/film_arrays.hpp"
@@ -21,11 +23,36 @@ namespace spume::io {
 
 namespace {
 
-vtkDataArray& array_of(vtkFieldData* fields, const Column& column, const std::string& path) {
+/// The array of this name, with one number for each of `n_tuples` or more.
+vtkDataArray& array_of(vtkFieldData* fields, const Column& column, vtkIdType n_tuples,
+                       const std::string& path) {
   vtkDataArray* array = fields->GetArray(column.name.data());
   if (array == nullptr)
     throw InputError(fmt::format("{}: not a films file of spume: it has no array '{}'", path, column.name));
+  if (array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() < n_tuples)
+    throw InputError(fmt::format("{}: the array '{}' needs one number for each of {} points or cells", path,
+                                 column.name, n_tuples));
   return *array;
+}
+
+double time_of(vtkPolyData& data, const std::string& path) {
+  vtkDataArray& time = array_of(data.GetFieldData(), arrays::time, 0, path);
+  return time.GetNumberOfTuples() > 0 ? time.GetTuple1(0) : 0;
+}
+
+/// VTK does not look whether the points that cells use are there.
+void check_cells(vtkPolyData& data, const std::string& path) {
+  if (data.GetStrips()->GetNumberOfCells() > 0)
+    throw InputError(path + ": holds triangle strips; give single triangles");
+  vtkNew<vtkIdList> points;
+  for (vtkCellArray* cells : {data.GetLines(), data.GetPolys()})
+    for (vtkIdType c = 0; c < cells->GetNumberOfCells(); ++c) {
+      cells->GetCellAtId(c, points);
+      for (vtkIdType p = 0; p < points->GetNumberOfIds(); ++p)
+        if (points->GetId(p) < 0 || points->GetId(p) >= data.GetNumberOfPoints())
+          throw InputError(fmt::format("{}: a cell uses point {}; there are {}, from 0 on", path,
+                                       points->GetId(p), data.GetNumberOfPoints()));
+    }
 }
 
 Vec3 point_of(vtkPolyData& data, vtkIdType p) {
@@ -48,8 +75,8 @@ vtkIdType count_film_points(vtkPolyData& data) {
 
 void read_points(vtkPolyData& data, vtkIdType n_film_points, const std::string& path,
                  state::FilmFrame& frame) {
-  vtkDataArray& eta = array_of(data.GetPointData(), arrays::half_thickness, path);
-  vtkDataArray& lambda = array_of(data.GetPointData(), arrays::border_area, path);
+  vtkDataArray& eta = array_of(data.GetPointData(), arrays::half_thickness, data.GetNumberOfPoints(), path);
+  vtkDataArray& lambda = array_of(data.GetPointData(), arrays::border_area, data.GetNumberOfPoints(), path);
   for (vtkIdType p = 0; p < data.GetNumberOfPoints(); ++p) {
     if (p < n_film_points) {
       frame.film_point.push_back(point_of(data, p));
@@ -73,11 +100,18 @@ void read_cells(vtkPolyData& data, vtkIdType n_film_points, const std::string& p
       line.push_back(static_cast<int>(points->GetId(p) - n_film_points));
     }
   }
-  vtkDataArray& lamella = array_of(data.GetCellData(), arrays::lamella, path);
-  vtkDataArray& phase_a = array_of(data.GetCellData(), arrays::phase_a, path);
-  vtkDataArray& phase_b = array_of(data.GetCellData(), arrays::phase_b, path);
+  const auto cell_array = [&](const Column& column) -> vtkDataArray& {
+    return array_of(data.GetCellData(), column, data.GetNumberOfCells(), path);
+  };
+  vtkDataArray &lamella = cell_array(arrays::lamella), &phase_a = cell_array(arrays::phase_a),
+               &phase_b = cell_array(arrays::phase_b);
+  // Cell data have the order vertices, lines, polygons, whatever the order in the file.
+  const vtkIdType first_triangle = data.GetVerts()->GetNumberOfCells() + n_lines;
   const auto value = [&](vtkDataArray& array, vtkIdType triangle) {
-    return static_cast<int>(array.GetTuple1(n_lines + triangle));
+    const double number = array.GetTuple1(first_triangle + triangle);
+    if (!(std::abs(number) <= std::numeric_limits<int>::max()))
+      throw InputError(fmt::format("{}: '{}' of triangle {} is {}", path, array.GetName(), triangle, number));
+    return static_cast<int>(number);
   };
   for (vtkIdType c = 0; c < data.GetPolys()->GetNumberOfCells(); ++c) {
     data.GetPolys()->GetCellAtId(c, points);
@@ -111,7 +145,8 @@ state::FilmFrame read_films(const std::filesystem::path& path) {
 
   vtkPolyData& data = *reader->GetOutput();
   state::FilmFrame frame;
-  frame.time = array_of(data.GetFieldData(), arrays::time, path.string()).GetTuple1(0);
+  frame.time = time_of(data, path.string());
+  check_cells(data, path.string());
   const vtkIdType n_film_points = count_film_points(data);
   read_points(data, n_film_points, path.string(), frame);
   read_cells(data, n_film_points, path.string(), frame);

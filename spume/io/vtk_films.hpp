@@ -18,7 +18,8 @@ std::span<const Column> film_arrays();
 void write_films(const state::FilmFrame& frame, const std::filesystem::path& path);
 
 /// Reads back what write_films() wrote, every number bit for bit. Throws InputError when the file is missing,
-/// is not poly-data or lacks an array.
+/// is not poly-data, lacks an array, holds triangle strips, or has a cell with a point that is not there or
+/// with a phase that is no number. Passes over cells that are vertices; the time is 0 where none is given.
 state::FilmFrame read_films(const std::filesystem::path& path);
 
 }  // namespace spume::io

@@ -35,7 +35,7 @@ SizeField::SizeField(const mesh::FilmMesh& films, const mesh::Topology& topology
       // Border vertices may be farther apart than the targets between them ask for.
       if (n > 0) {
         const Vec3 back = films.edge(border.vertices[n], border.vertices[n - 1]);
-        const int n_parts = std::min(8, static_cast<int>(norm(back) / (0.5 * std::min(size, previous))));
+        const int n_parts = static_cast<int>(std::min(8.0, norm(back) / (0.5 * std::min(size, previous))));
         for (int part = 1; part < n_parts; ++part) {
           const double weight = static_cast<double>(part) / n_parts;
           add(x + weight * back, (1 - weight) * size + weight * previous);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "spume/base/error.hpp"
@@ -41,6 +42,27 @@ std::vector<int> join_points(const state::FilmFrame& frame, mesh::FilmMesh& film
   return vertex;
 }
 
+/// What the topology takes for granted: the numbers of phases are small, since arrays have a place for each,
+/// and few of them meet at a vertex.
+void check_phases(const mesh::FilmMesh& films) {
+  std::vector<mesh::PhaseSet> around(films.n_vertices());
+  for (const auto& t : films.triangle) {
+    const mesh::Phase largest = std::max(t.phase_a, t.phase_b);
+    if (largest > films.n_triangles())
+      throw InputError(
+          fmt::format("the triangle at {} has the phase {}, and there are only {} triangles: number "
+                      "the bubbles 1, 2, …",
+                      place(films.position[t.vertex[0]]), largest, films.n_triangles()));
+    for (const int v : t.vertex)
+      for (const mesh::Phase phase : {t.phase_a, t.phase_b}) {
+        if (!around[v].contains(phase) && around[v].size() == mesh::PhaseSet::capacity)
+          throw InputError(fmt::format("more than {} phases meet at {}: at a junction of a foam four do",
+                                       mesh::PhaseSet::capacity, place(films.position[v])));
+        around[v].insert(phase);
+      }
+  }
+}
+
 mesh::FilmMesh join(const state::FilmFrame& frame) {
   mesh::FilmMesh films;
   const std::vector<int> vertex = join_points(frame, films);
@@ -57,20 +79,73 @@ mesh::FilmMesh join(const state::FilmFrame& frame) {
       throw InputError("a triangle has no area at " + place(x));
   }
   if (films.triangle.empty()) throw InputError("no triangles");
+  check_phases(films);
   mesh::drop_unused_vertices(films);
   return films;
 }
 
-/// Counts the edges at which films end; throws where one is what no edge of a foam can be.
-int check_edges(const mesh::FilmMesh& films, const mesh::Topology& topology) {
-  std::map<std::pair<int, int>, std::vector<int>> triangles;
+/// Edges of triangles and the triangles around each.
+using Edges = std::map<std::pair<int, int>, std::vector<int>>;
+
+Edges edges_of(const mesh::FilmMesh& films) {
+  Edges triangles;
   for (int t = 0; t < films.n_triangles(); ++t)
     for (int e = 0; e < 3; ++e)
       triangles[std::minmax(films.triangle[t].vertex[e], films.triangle[t].vertex[(e + 1) % 3])].push_back(t);
+  return triangles;
+}
+
+constexpr const char* same_coordinates =
+    "points of films that meet need the same coordinates to the last digit";
+
+/// Films whose points differ in the last digit do not meet, and their Plateau border would be missing.
+void check_poly_lines(const state::FilmFrame& frame, const SourcedFilms& sourced) {
+  std::set<Coordinates> on_border;
+  for (const auto& dof : sourced.topology.border_dof)
+    on_border.insert(key(sourced.films.position[dof.vertex]));
+  for (const auto& line : frame.border_line)
+    for (const int p : line)
+      if (!on_border.contains(key(frame.border_point[p])))
+        throw InputError(fmt::format("a poly-line runs through {}, where no three films meet: {}",
+                                     place(frame.border_point[p]), same_coordinates));
+}
+
+/// The same without poly-lines: two vertices where films end are one point that was rounded in two ways.
+void check_free_vertices(const mesh::FilmMesh& films, const Edges& edges) {
+  constexpr double rounding = 1e-6;  // of an edge: that of numbers in single precision, with some room
+  std::map<int, double> reach;       // of each vertex at which a film ends [m]
+  double largest = 0;
+  for (const auto& [ends, around] : edges) {
+    if (around.size() != 1) continue;
+    const double length = rounding * norm(films.edge(ends.first, ends.second));
+    largest = std::max(largest, length);
+    for (const int v : {ends.first, ends.second}) {
+      const auto [known, is_new] = reach.try_emplace(v, length);
+      if (!is_new) known->second = std::min(known->second, length);
+    }
+  }
+  std::map<Coordinates, std::vector<int>> bins;  // of the edge `largest`, by multiples of it
+  for (const auto& [v, unused] : reach) {
+    const Vec3 x = films.position[v] / largest;
+    const Coordinates bin{std::floor(x.x), std::floor(x.y), std::floor(x.z)};
+    for (int n = 0; n < 27; ++n) {
+      const auto near = bins.find({bin[0] + n % 3 - 1, bin[1] + n / 3 % 3 - 1, bin[2] + n / 9 - 1});
+      if (near == bins.end()) continue;
+      for (const int w : near->second)
+        if (const double apart = norm(films.edge(v, w)); apart <= std::min(reach[v], reach[w]))
+          throw InputError(fmt::format("films end at two points {:.3g} m apart at {}: {}", apart,
+                                       place(films.position[v]), same_coordinates));
+    }
+    bins[bin].push_back(v);
+  }
+}
+
+/// Counts the edges at which films end; throws where one is what no edge of a foam can be.
+int check_edges(const mesh::FilmMesh& films, const mesh::Topology& topology, const Edges& edges) {
   std::map<std::pair<int, int>, bool> border;
   for (const auto& edge : topology.border_edge) border[{edge.vertex[0], edge.vertex[1]}] = true;
   int n_free = 0;
-  for (const auto& [ends, around] : triangles) {
+  for (const auto& [ends, around] : edges) {
     const Vec3& x = films.position[ends.first];
     if (around.size() == 1) ++n_free;
     if (around.size() > 3 || (around.size() == 3 && !border.contains(ends)))
@@ -142,7 +217,10 @@ SourcedFilms join_films(const state::FilmFrame& frame, bool with_liquid, double 
   SourcedFilms sourced;
   sourced.films = join(frame);
   sourced.topology = mesh::build_topology(sourced.films);
-  sourced.n_free_edges = check_edges(sourced.films, sourced.topology);
+  const Edges edges = edges_of(sourced.films);
+  sourced.n_free_edges = check_edges(sourced.films, sourced.topology, edges);
+  check_poly_lines(frame, sourced);
+  check_free_vertices(sourced.films, edges);
   sourced.liquid =
       with_liquid ? liquid_of(frame, sourced)
                   : transport::uniform_liquid(sourced.films, sourced.topology, half_thickness, border_area);

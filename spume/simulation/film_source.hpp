@@ -19,9 +19,11 @@ struct SourcedFilms {
 
 /// Makes one conforming mesh of a frame: points of the same coordinates are one vertex. Where `with_liquid`,
 /// η and λ are those of the frame, else `half_thickness` [m] and `border_area` [m²] everywhere.
-/// Throws InputError, with the place, where a triangle has no area or no two phases; where an edge is neither
-/// inside a film, nor where a film ends, nor a Plateau border of three films between three phases; where η or
-/// λ is missing or not positive.
+/// Throws InputError, with the place, where a triangle has no area or no two phases, or a phase of a larger
+/// number than there are triangles; where more than twelve phases meet; where an edge is neither inside a
+/// film, nor where a film ends, nor a Plateau border of three films between three phases; where points that
+/// should be one differ by rounding: a poly-line without a border, or two ends of films within 1e-6 of an
+/// edge; where η or λ is missing or not positive.
 SourcedFilms join_films(const state::FilmFrame& frame, bool with_liquid, double half_thickness,
                         double border_area);
 

@@ -86,6 +86,42 @@ refuses "labelled image that is not there" 1 "^wrong.toml: .*missing.mha: no suc
 echo "no image" >broken.mha
 wrong '/foam.bubble/,/radius/d; s/^\[cycle\]/[foam.labels]\nfile = "broken.mha"\n[cycle]/'
 refuses "labelled image that is none" 1 "^wrong.toml: .*broken.mha: damaged" run wrong.toml
+wrong 's/^\[cycle\]/[drainage]\nedge_at_junctions = 1e-9\n[cycle]/'
+refuses "edges far below a cell" 1 "^wrong.toml:14:21: 'drainage.edge_at_junctions' must be 0 or from 5e-06 to" run wrong.toml
+
+# films TRIANGLE PHASE: films.vtp of two triangles, the second with these points and between phases 0 and PHASE.
+films() {
+  cat >films.vtp <<VTP
+<VTKFile type="PolyData" version="1.0" header_type="UInt64"><PolyData>
+<FieldData><DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="ascii">0</DataArray></FieldData>
+<Piece NumberOfPoints="4" NumberOfPolys="2">
+<PointData>
+<DataArray type="Float64" Name="half_thickness_m" format="ascii">5e-6 5e-6 5e-6 5e-6</DataArray>
+<DataArray type="Float64" Name="border_area_m2" format="ascii">0 0 0 0</DataArray>
+</PointData>
+<CellData>
+<DataArray type="Float64" Name="lamella" format="ascii">0 0</DataArray>
+<DataArray type="Float64" Name="phase_a" format="ascii">0 0</DataArray>
+<DataArray type="Float64" Name="phase_b" format="ascii">1 $2</DataArray>
+</CellData>
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1e-3 0 0 1e-3 1e-3 0 0 1e-3 0</DataArray></Points>
+<Polys><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 $1</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">3 6</DataArray></Polys>
+</Piece></PolyData></VTKFile>
+VTP
+}
+printf '[foam.films]\nfile = "films.vtp"\n[cycle]\nstages = ["drain"]\n' >films.toml
+films "0 2 3" 1
+"$program" check films.toml >"$scratch.out" 2>&1 || { echo "FAILED: good films"; n_failed=$((n_failed + 1)); }
+films "0 2 999999999" 1
+refuses "triangle of a point that is not there" 1 "films.vtp: a cell uses point 999999999; there are 4" run films.toml
+films "0 2 -5" 1
+refuses "triangle of a negative point" 1 "films.vtp: a cell uses point -5; there are 4" run films.toml
+films "0 2 3" 2147483647
+refuses "phase without bound" 1 "films.vtp: the triangle at .* has the phase 2147483647" run films.toml
+films "0 2 3" 1e10
+refuses "phase beyond all numbers" 1 "films.vtp: 'phase_b' of triangle 1 is" run films.toml
+rm films.vtp films.toml
 wrong 's/^density.*/density = 0/; s/^radius.*/radius = 0/; s/^end_time/endtime/'
 refuses "three problems at once" 3 "^wrong.toml:14:1: unknown key 'cycle.endtime'; did you mean 'cycle.end_time'\?$" run wrong.toml
 refuses "the same by check" 3 "^wrong.toml:8:11: 'gas.density' must be a number > 0, not 0$" check wrong.toml

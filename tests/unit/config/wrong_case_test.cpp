@@ -189,6 +189,25 @@ TEST(WrongCase, films_of_a_file_stand_alone_and_only_drain) {
               HasSubstr("do not go on through periodic faces"));
 }
 
+TEST(WrongCase, edges_of_the_drainage_mesh_are_of_the_size_of_a_cell) {
+  EXPECT_EQ(report(sample_case, {"drainage.edge_at_borders=2.5e-4", "drainage.edge_at_junctions=5.1e-6"}),
+            "");
+  EXPECT_EQ(report(sample_case, {"drainage.edge_at_junctions=3e-5"}), "");  // borders by the grid
+  for (const std::string key : {"drainage.edge_at_borders", "drainage.edge_at_junctions"})
+    for (const std::string edge : {"4.9e-06", "0.000251", "1e-300"})
+      EXPECT_EQ(
+          report(sample_case, {key + "=" + edge}),
+          "--set " + key + "=" + edge + ": '" + key +
+              "' must be 0 or from 5e-06 to 0.00025 m, 1/50 of a cell of the grid to a whole one, not " +
+              edge);
+  EXPECT_THAT(
+      report(sample_case, {"drainage.edge_at_borders=2e-5", "drainage.edge_at_junctions=3e-5"}),
+      HasSubstr("'drainage.edge_at_junctions' must be ≤ 'drainage.edge_at_borders', 2e-05 m, not 3e-05"));
+  const std::string films = "[foam.films]\nfile = \"a.vtp\"\n[cycle]\nstages = [\"drain\"]\n";
+  EXPECT_THAT(report(films, {"drainage.edge_at_junctions=0.1"}), HasSubstr("films of a file are not meshed"));
+  EXPECT_EQ(report(films, {"drainage.edge_at_borders=0"}), "");
+}
+
 TEST(WrongCase, pair_of_phases_that_does_not_exist_is_refused) {
   EXPECT_THAT(report(sample_case, {"foam.remove_lamella=[[1, 2]]"}), HasSubstr("there is no phase 2"));
   EXPECT_THAT(report(sample_case, {"rupture.protect=[[1, 1]]"}), HasSubstr("between phase 1 and itself"));

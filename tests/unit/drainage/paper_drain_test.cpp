@@ -9,6 +9,7 @@
 
 #include "networks.hpp"
 #include "spume/base/error.hpp"
+#include "spume/mesh/measure.hpp"
 
 namespace spume::drainage {
 namespace {
@@ -114,6 +115,49 @@ TEST(PaperDrain, drains_closed_borders_and_films_without_any) {
   const auto outcome = drain(bubble, soap, paper(0.1, 0.01), 0, testing::thinnest_node, {});
   EXPECT_EQ(outcome.n_steps, 10);
   EXPECT_LT(std::abs(outcome.ledger_error), 1e-13);
+}
+
+/// What the scheme says to a network that it cannot treat.
+std::string refusal(state::FilmNetwork network) {
+  try {
+    drain(network, soap, paper(1), 0, testing::thinnest_node, {});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(PaperDrain, refuses_borders_of_a_single_edge_at_a_junction_with_their_place) {
+  EXPECT_THAT(refusal(testing::tetrahedral_corner({1e-3}, 3e-7, 5e-8)),
+              ::testing::HasSubstr("of a single edge that ends in the junction at (0, 0, 0) m"));
+}
+
+TEST(PaperDrain, refuses_a_border_that_goes_on_through_a_junction) {
+  // A fourth phase touches the ring between two bubbles in one vertex.
+  const auto ring = testing::double_bubble(1e-3, {0.4, 0.7, 1}, 24, 3e-7, 5e-8);
+  mesh::FilmMesh films = ring.mesh;
+  const int v = ring.topology.border[0].vertices[3], n = films.n_vertices();
+  films.position.push_back(films.position[v] + Vec3{0, 1e-3, 1e-3});
+  films.position.push_back(films.position[v] + Vec3{1e-3, 1e-3, 1e-3});
+  films.triangle.push_back(mesh::make_triangle(v, n, n + 1, 0, 3));
+  EXPECT_THAT(refusal(testing::make_network(films, 3e-7, 5e-8)),
+              ::testing::HasSubstr("a Plateau border that goes on through the junction at ("));
+}
+
+TEST(PaperDrain, accounts_for_the_liquid_of_the_network_that_it_gives_back) {
+  auto network = corner();
+  const auto liquid = [&] {
+    double sum = 0;
+    const auto area = mesh::film_dof_areas(network.mesh, network.topology);
+    for (std::size_t d = 0; d < area.size(); ++d) sum += 2 * area[d] * network.half_thickness[d];
+    const auto length = mesh::border_dof_lengths(network.mesh, network.topology);
+    for (std::size_t d = 0; d < length.size(); ++d)
+      sum += length[d] * network.border_area[network.topology.border_dof[d].vertex];
+    return sum;
+  };
+  const double before = liquid();
+  const auto outcome = drain(network, soap, paper(0.2), 0, testing::thinnest_node, {});
+  EXPECT_NEAR(liquid() / before - 1, outcome.ledger_error, 1e-14);  // round-off of two sums
 }
 
 TEST(PaperDrain, cannot_start_where_the_films_or_borders_are_dry) {

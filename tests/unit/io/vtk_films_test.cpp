@@ -10,7 +10,9 @@
 #include <vtkPolyData.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <numeric>
 
 #include "spume/base/error.hpp"
@@ -148,6 +150,84 @@ TEST(VtkFilms, RefusesOtherFilesByName) {
   write_films(Sample().frame(0), path);
   std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
   EXPECT_THROW(read_films(path), InputError);
+}
+
+/// Two triangles in the (x, y) plane on points 0 to 3, and a poly-line on points 4 and 5.
+struct TextFile {
+  std::string verts = "", line = "4 5", triangles = "0 1 2 0 2 3", strips = "";
+  std::string phase_b = "1 2", time = "0.5";
+
+  static std::string cells(const std::string& name, const std::string& points, int size) {
+    const auto n = points.empty() ? 0 : (1 + std::ranges::count(points, ' ')) / size;
+    std::string offsets;
+    for (int c = 1; c <= n; ++c) offsets += std::to_string(c * size) + " ";
+    return "<" + name + "><DataArray type='Int64' Name='connectivity' format='ascii'>" + points +
+           "</DataArray><DataArray type='Int64' Name='offsets' format='ascii'>" + offsets + "</DataArray></" +
+           name + ">\n";
+  }
+  static std::string array(const std::string& name, const std::string& values) {
+    return "<DataArray type='Float64' Name='" + name + "' format='ascii'>" + values + "</DataArray>\n";
+  }
+  /// Cell data of the vertices, lines and strips there are, with those of the triangles in their place.
+  std::string on_cells(const std::string& of_triangles) const {
+    return (verts.empty() ? "" : "-7 ") + std::string(line.empty() ? "" : "-1 ") + of_triangles +
+           (strips.empty() ? "" : " -9");
+  }
+  std::filesystem::path written_to(const std::filesystem::path& path) const {
+    const std::string n_times = time.empty() ? "0" : "1";
+    std::ofstream(path) << "<VTKFile type='PolyData' version='1.0' header_type='UInt64'><PolyData>\n"
+                        << "<FieldData><DataArray type='Float64' Name='TimeValue' NumberOfTuples='" << n_times
+                        << "' format='ascii'>" << time << "</DataArray></FieldData>\n"
+                        << "<Piece NumberOfPoints='6' NumberOfVerts='" << !verts.empty()
+                        << "' NumberOfLines='" << !line.empty() << "' NumberOfStrips='" << !strips.empty()
+                        << "' NumberOfPolys='2'>\n<PointData>" << array("half_thickness_m", "1 2 3 4 0 0")
+                        << array("border_area_m2", "0 0 0 0 5 6") << "</PointData>\n<CellData>"
+                        << array("lamella", on_cells("0 0")) << array("phase_a", on_cells("0 0"))
+                        << array("phase_b", on_cells(phase_b)) << "</CellData>\n<Points>"
+                        << "<DataArray type='Float64' NumberOfComponents='3' format='ascii'>"
+                        << "0 0 0 1 0 0 1 1 0 0 1 0 0 0 0 1 0 0</DataArray></Points>\n"
+                        << cells("Verts", verts, 1) << cells("Lines", line, 2) << cells("Strips", strips, 4)
+                        << cells("Polys", triangles, 3) << "</Piece></PolyData></VTKFile>\n";
+    return path;
+  }
+};
+
+std::string complaint(const TextFile& file) {
+  const ScratchFolder folder;
+  try {
+    read_films(file.written_to(folder.path() / "text.vtp"));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(VtkFilms, ReadsTextAndPassesOverCellsThatAreVertices) {
+  const ScratchFolder folder;
+  for (const std::string verts : {"", "3"}) {
+    const auto frame = read_films(TextFile{.verts = verts}.written_to(folder.path() / "text.vtp"));
+    ASSERT_EQ(frame.triangle.size(), 2u);
+    EXPECT_EQ(frame.triangle[0].phase_b, 1);
+    EXPECT_EQ(frame.triangle[1].phase_b, 2);
+    EXPECT_EQ(frame.time, 0.5);
+    EXPECT_EQ(frame.border_line, (std::vector<std::vector<int>>{{0, 1}}));
+  }
+  EXPECT_EQ(read_films(TextFile{.time = ""}.written_to(folder.path() / "text.vtp")).time, 0);
+}
+
+TEST(VtkFilms, RefusesCellsThatUsePointsThatAreNotThere) {
+  for (const std::string point : {"999999999", "-5", "6"}) {
+    const std::string expected = "a cell uses point " + point + "; there are 6";
+    EXPECT_NE(complaint({.triangles = "0 1 2 0 2 " + point}).find(expected), std::string::npos);
+    EXPECT_NE(complaint({.line = "4 " + point}).find(expected), std::string::npos);
+  }
+}
+
+TEST(VtkFilms, RefusesStripsAndPhasesBeyondAllNumbers) {
+  EXPECT_NE(complaint({.strips = "0 1 2 3"}).find("strips"), std::string::npos);
+  for (const std::string phase : {"1e300", "-3e9"})
+    EXPECT_NE(complaint({.phase_b = "1 " + phase}).find("'phase_b' of triangle 1 is"), std::string::npos)
+        << complaint({.phase_b = "1 " + phase});
 }
 
 TEST(VtkFilms, SaysWhenTheFolderIsNotThere) {

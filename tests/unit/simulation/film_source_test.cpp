@@ -95,6 +95,7 @@ TEST(FilmSource, says_what_is_wrong_and_where) {
 
   frame = frame_of(mesh, 2e-6, 3e-9);
   frame.border_point.clear();
+  frame.border_line.clear();
   EXPECT_NE(complaint(frame).find("foam.films.liquid = \"uniform\""), std::string::npos);
 
   frame = frame_of(mesh, 2e-6, 3e-9);
@@ -112,6 +113,56 @@ TEST(FilmSource, says_what_is_wrong_and_where) {
   frame = frame_of(mesh, 2e-6, 3e-9);
   frame.triangle[0].point[2] = frame.triangle[0].point[1];
   EXPECT_NE(complaint(frame).find("no area"), std::string::npos);
+}
+
+TEST(FilmSource, refuses_phases_beyond_any_foam) {
+  for (const int phase : {7, 100000000, std::numeric_limits<int>::max()}) {
+    auto frame = frame_of(three_walls(), 2e-6, 3e-9);  // 6 triangles
+    for (auto& t : frame.triangle)
+      if (t.phase_b == 2) t.phase_b = phase;
+    EXPECT_NE(complaint(frame).find("has the phase " + std::to_string(phase)), std::string::npos)
+        << complaint(frame);
+  }
+  // A fan of triangles that share the origin alone, each around a bubble of its own.
+  mesh::FilmMesh fan;
+  fan.position = {{0, 0, 0}};
+  for (int n = 0; n < 12; ++n) {
+    const int v = fan.n_vertices();
+    fan.position.push_back({1e-3, 0, n * 1e-4});
+    fan.position.push_back({1e-3, 1e-3, n * 1e-4});
+    fan.triangle.push_back(mesh::make_triangle(0, v, v + 1, 0, n + 1));
+    if (n < 11) {
+      EXPECT_EQ(join_films(frame_of(fan, 2e-6, 3e-9), true, 1, 1).n_free_edges, 3 * (n + 1));
+    }
+  }
+  state::FilmFrame thirteen;
+  thirteen.film_point = fan.position;
+  thirteen.half_thickness.assign(fan.position.size(), 2e-6);
+  for (const auto& t : fan.triangle) thirteen.triangle.push_back({t.vertex, 0, t.phase_a, t.phase_b});
+  EXPECT_NE(complaint(thirteen).find("more than 12 phases meet at (0, 0, 0) m"), std::string::npos)
+      << complaint(thirteen);
+}
+
+TEST(FilmSource, refuses_films_that_miss_each_other_in_the_last_digit) {
+  // One film of three moves away along y by a billionth of its edges: no border is left.
+  auto frame = frame_of(three_walls(), 2e-6, 3e-9);
+  for (std::size_t t = 0; t < frame.triangle.size(); ++t)
+    for (const int p : frame.triangle[t].point)
+      if (norm(frame.film_point[p] - Vec3{0, 0, frame.film_point[p].z}) < 1e-6)
+        frame.film_point[p].y = 1e-12 * frame.triangle[t].lamella;
+  EXPECT_NE(
+      complaint(frame).find("a poly-line runs through (0, 0, 0) m, where no three films meet: points of"),
+      std::string::npos)
+      << complaint(frame);
+  frame.border_point.clear();
+  frame.border_area.clear();
+  frame.border_line.clear();
+  EXPECT_NE(complaint(frame).find("films end at two points 1e-12 m apart at (0, "), std::string::npos)
+      << complaint(frame);
+  // A slit of a hundredth of an edge is meant.
+  for (Vec3& x : frame.film_point)
+    if (std::abs(x.y) < 1e-6) x.y *= 1e7;
+  EXPECT_EQ(complaint(frame), "");
 }
 
 TEST(FilmSource, tells_the_volume_of_what_films_enclose_and_something_positive_of_the_rest) {
