@@ -44,7 +44,8 @@ struct LabelsSource {
   } placement = Placement::Box;
 };
 
-/// Films from a file of the series films.pvd, or of that form, to drain as they are. Key section [foam.films].
+/// Films from a file of the series films.pvd, or of that form, to drain as they are. Key section
+/// [foam.films].
 struct FilmsSource {
   std::string file;
   enum class Liquid {

@@ -19,10 +19,10 @@ struct Weakest {
   state::ThinPoint point;
 };
 
-/// Part C of the paper: meshes the films at rest (films from a file stay as they are), drains them, and says which lamella ruptures; none when the
-/// stage's or the run's time is up first. The gas is at rest afterwards: seconds of drainage outlast its
-/// motion. Collective. Throws Interrupted when the user wants to stop: the checkpoint of the stage's start
-/// stands.
+/// Part C of the paper: meshes the films at rest (films from a file stay as they are), drains them, and says
+/// which lamella ruptures; none when the stage's or the run's time is up first. The gas is at rest
+/// afterwards: seconds of drainage outlast its motion. Collective. Throws Interrupted when the user wants to
+/// stop: the checkpoint of the stage's start stands.
 std::optional<Weakest> drain_films(const grid::Grid& grid, const Case& run_case, RunState& run,
                                    Witness& witness);
 

@@ -19,8 +19,8 @@ struct Start {
 Start start_of(const Case& run_case);
 
 /// The bubbles that the case asks for: its own list, then those of its cluster; of a lattice,
-/// an image or films, spheres of the volumes and places of its bubbles. Deterministic. Throws InputError when a
-/// bubble of a list or cluster reaches within four cells of the edge of the box, or there is none.
+/// an image or films, spheres of the volumes and places of its bubbles. Deterministic. Throws InputError when
+/// a bubble of a list or cluster reaches within four cells of the edge of the box, or there is none.
 std::vector<BubbleShape> bubbles_of(const Case& run_case);
 
 }  // namespace spume::simulation

@@ -28,7 +28,8 @@ TEST(LevelSetGeometry, of_a_plane_is_exact) {
 struct Errors {
   double k = 0, g = 0;
 };
-/// Mean errors over points of the unit sphere, where k = 2 and g_s = g − (g·x) x, with ψ that is not a distance.
+/// Mean errors over points of the unit sphere, where k = 2 and g_s = g − (g·x) x, with ψ that is not a
+/// distance.
 Errors sphere_errors(double spacing) {
   const auto points = sphere_points();
   const auto found = geometry_of_level_set([](const Vec3& x) { return std::exp(norm_squared(x)); }, spacing,
