@@ -8,30 +8,16 @@
 #include <numbers>
 #include <utility>
 
+#include "spume/verification/film_networks.hpp"
+
 namespace spume::drainage::testing {
 
 state::FilmNetwork make_network(mesh::FilmMesh mesh, double eta, double lambda) {
-  state::FilmNetwork network;
-  network.topology = mesh::build_topology(mesh);
-  network.mesh = std::move(mesh);
-  network.half_thickness.assign(network.topology.film_dof.size(), eta);
-  network.curvature_squared.assign(network.topology.film_dof.size(), 0.0);
-  network.border_area.assign(network.mesh.n_vertices(), 0.0);
-  for (const auto& dof : network.topology.border_dof) network.border_area[dof.vertex] = lambda;
-  return network;
+  return verification::uniform_network(std::move(mesh), eta, lambda);
 }
 
 state::FilmNetwork square_film(double side, int n, double eta) {
-  mesh::FilmMesh mesh;
-  const auto at = [n](int i, int j) { return i + (n + 1) * j; };
-  for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) mesh.position.push_back({side * i / n, side * j / n, 0});
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      mesh.triangle.push_back(mesh::make_triangle(at(i, j), at(i + 1, j), at(i + 1, j + 1), 0, 1));
-      mesh.triangle.push_back(mesh::make_triangle(at(i, j), at(i + 1, j + 1), at(i, j + 1), 0, 1));
-    }
-  return make_network(std::move(mesh), eta, 0);
+  return make_network(verification::rectangle(side, side, n, n), eta, 0);
 }
 
 state::FilmNetwork single_bubble(double radius, int levels, double eta) {
