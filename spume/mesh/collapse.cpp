@@ -50,15 +50,26 @@ class Collapser {
         normal_(work.mesh.n_vertices()),
         mark_(work.mesh.n_vertices(), 0) {
     for (int v = 0; v < mesh_.n_vertices(); ++v) kind_.push_back(work_.kind(v));
-    for (int t = 0; t < mesh_.n_triangles(); ++t)
+    for (int t = 0; t < mesh_.n_triangles(); ++t) {
+      const Vec3 normal = doubled_area_normal(mesh_, t);
       for (int v : mesh_.triangle[t].vertex)
-        if (kind(v) == VertexKind::Film) normal_[v] += doubled_area_normal(mesh_, t);
+        if (kind(v) == VertexKind::Film) normal_[v] += normal;
+    }
     for (Vec3& n : normal_) n = normalized(n);
   }
 
-  /// One pass over the edges that are too short at its start.
-  int run() {
-    const int n_collapsed = collapse_listed(short_edges());
+  /// Passes over the edges that are too short at the start of each. After the first, only those around what
+  /// the last one changed: elsewhere they would be refused again. Ends early when most of the mesh has changed,
+  /// which is then better looked at afresh, without the holes in its numbering.
+  int run(int& n_passes_left) {
+    int n_collapsed = collapse_listed(short_edges());
+    while (--n_passes_left > 0 && !grown_.empty() && changed_little()) {
+      const std::vector<int> changed = changed_vertices();
+      grown_.clear();
+      for (int v : changed) measure(v);
+      n_collapsed += collapse_listed(short_edges_at(changed));
+    }
+    if (grown_.empty()) n_passes_left = 0;
     if (n_collapsed > 0) work_.remove(dead_triangle_);
     return n_collapsed;
   }
@@ -78,8 +89,20 @@ class Collapser {
     std::erase_if(star_[v], [&](int t) { return dead_triangle_[t]; });
   }
 
+  bool changed_little() const { return 32 * grown_.size() < star_.size(); }
+  bool is_to_go(int low, int high, double length_squared) const {
+    const double limit = parameters_.collapse_below * edge_target(low, high);
+    return length_squared < limit * limit || hangs_in_three_triangles(low) || hangs_in_three_triangles(high);
+  }
+
   /// Block by block of their lower vertices, which are near each other in memory; in each the shortest first.
   std::vector<EdgeLength> short_edges() const;
+  /// Those with an end in `vertices`.
+  std::vector<EdgeLength> short_edges_at(const std::vector<int>& vertices) const;
+  /// The vertices of all triangles that have moved since the start of the pass.
+  std::vector<int> changed_vertices() const;
+  /// Star and normal of a vertex, after a pass.
+  void measure(int v);
   void fetch_ahead(const std::vector<EdgeLength>& edges, std::size_t n) const;
   int collapse_listed(const std::vector<EdgeLength>& edges);
   bool try_collapse(int v, int w);
@@ -98,7 +121,8 @@ class Collapser {
   std::vector<VertexKind> kind_;
   std::vector<std::vector<int>> star_;
   std::vector<char> dead_triangle_, dead_vertex_;
-  std::vector<Vec3> normal_;  // of film vertices, at the start
+  std::vector<Vec3> normal_;  // of film vertices, at the start of the pass
+  std::vector<int> grown_;    // vertices that took over the triangles of another in this pass
   std::vector<int> mark_;     // of vertices: scratch of keeps_topology
   int next_mark_ = 1;
 };
@@ -112,8 +136,7 @@ std::vector<EdgeLength> Collapser::short_edges() const {
       if (to < from && (is_inner_film(from) || is_inner_film(to))) continue;
       const auto [low, high] = std::minmax(from, to);
       const double length_squared = norm_squared(mesh_.edge(low, high));
-      const double limit = parameters_.collapse_below * edge_target(low, high);
-      if (length_squared < limit * limit || hangs_in_three_triangles(low) || hangs_in_three_triangles(high))
+      if (is_to_go(low, high, length_squared))
         of_block[low / block_size].push_back({length_squared, low, high});
     }
   std::vector<EdgeLength> edges;
@@ -122,6 +145,40 @@ std::vector<EdgeLength> Collapser::short_edges() const {
     edges.insert(edges.end(), block.begin(), std::unique(block.begin(), block.end()));
   }
   return edges;
+}
+
+std::vector<EdgeLength> Collapser::short_edges_at(const std::vector<int>& vertices) const {
+  std::vector<EdgeLength> edges;
+  for (int v : vertices)
+    for (int t : star_[v])
+      for (int x : mesh_.triangle[t].vertex) {
+        if (x == v) continue;
+        const auto [low, high] = std::minmax(v, x);
+        const double length_squared = norm_squared(mesh_.edge(low, high));
+        if (is_to_go(low, high, length_squared)) edges.push_back({length_squared, low, high});
+      }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+std::vector<int> Collapser::changed_vertices() const {
+  std::vector<int> changed;
+  for (int w : grown_)
+    for (int t : star_[w])
+      if (!dead_triangle_[t])
+        changed.insert(changed.end(), mesh_.triangle[t].vertex.begin(), mesh_.triangle[t].vertex.end());
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  return changed;
+}
+
+void Collapser::measure(int v) {
+  drop_dead_from_star(v);
+  if (kind(v) != VertexKind::Film) return;
+  Vec3 normal;
+  for (int t : star_[v]) normal += doubled_area_normal(mesh_, t);
+  normal_[v] = normalized(normal);
 }
 
 /// Edges in the order of their lengths lie anywhere in a block; the processor is told early what comes.
@@ -285,17 +342,15 @@ void Collapser::collapse(int v, int w) {
   }
   star_[v].clear();
   dead_vertex_[v] = 1;
+  grown_.push_back(w);
 }
 
 }  // namespace
 
 int collapse_short_edges(WorkingMesh& work, const TargetLength& target, const RemeshParameters& parameters) {
   int n_collapsed = 0;
-  for (int pass = 0; pass < largest_number_of_passes; ++pass) {
-    const int n_this_pass = Collapser(work, target, parameters).run();
-    n_collapsed += n_this_pass;
-    if (n_this_pass == 0) break;
-  }
+  for (int n_passes_left = largest_number_of_passes; n_passes_left > 0;)
+    n_collapsed += Collapser(work, target, parameters).run(n_passes_left);
   return n_collapsed;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
+#include <set>
 
 #include "spume/base/union_find.hpp"
 
@@ -27,21 +29,19 @@ class Merger {
   int run() {
     const std::vector<EdgeLength> edges = tiny_edges();
     if (edges.empty()) return 0;
-    star_ = vertex_stars(mesh_);
+    star_.emplace(mesh_);
     UnionFind groups(mesh_.n_vertices());
     for (const EdgeLength& e : edges) groups.join(e.low, e.high);
-    std::vector<std::vector<int>> members(mesh_.n_vertices());
-    for (int v = 0; v < mesh_.n_vertices(); ++v) members[groups.find(v)].push_back(v);
+    std::map<int, std::set<int>> members;
+    for (const EdgeLength& e : edges) members[groups.find(e.low)].insert({e.low, e.high});
 
     int n_merged = 0;
-    std::vector<char> tried(mesh_.n_vertices(), 0);
+    std::set<int> tried;
     for (const EdgeLength& e : edges) {
       const int g = groups.find(e.low);
-      if (!tried[g]) {
-        tried[g] = 1;
-        n_merged += try_merge(members[g]);
-      }
-      if (members[g].size() > 2) n_merged += try_merge({e.low, e.high});
+      const auto& group = members[g];
+      if (tried.insert(g).second) n_merged += try_merge({group.begin(), group.end()});
+      if (group.size() > 2) n_merged += try_merge({e.low, e.high});
     }
     if (n_merged > 0) work_.remove(dead_triangle_);
     return n_merged;
@@ -64,7 +64,7 @@ class Merger {
   FilmMesh& mesh_;
   const RemeshParameters& parameters_;
   std::vector<double> target_;  // at vertices
-  std::vector<std::vector<int>> star_;
+  std::optional<VertexStars> star_;
   std::vector<char> dead_triangle_, touched_;
   // of the group under examination
   std::vector<int> dying_;  // triangles that lose an edge
@@ -108,7 +108,7 @@ int Merger::try_merge(const std::vector<int>& group) {
   for (int t : dying_) dead_triangle_[t] = 1;
   for (const Remaining& r : remaining_) mesh_.triangle[r.triangle].vertex[r.corner] = kept;
   for (int v : group)
-    for (int t : star_[v])
+    for (int t : (*star_)[v])
       for (int x : mesh_.triangle[t].vertex) touched_[x] = 1;
   for (int v : group) touched_[v] = 1;
   mesh_.position[kept] = point;
@@ -141,7 +141,7 @@ Vec3 Merger::meeting_point(const std::vector<int>& group) const {
 /// The triangles of the group: those that lose an edge, and those that go on with one corner moved.
 void Merger::collect_triangles(const std::vector<int>& group) {
   std::vector<int> all;
-  for (int v : group) all.insert(all.end(), star_[v].begin(), star_[v].end());
+  for (int v : group) all.insert(all.end(), (*star_)[v].begin(), (*star_)[v].end());
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   dying_.clear();
@@ -189,7 +189,7 @@ bool Merger::is_regular_link(const PhaseSet& phases) const {
 /// A neighbour that only dying triangles join to the group must go with them, or it would hang in the air.
 bool Merger::lets_neighbours_be(int dying_triangle, const Link& link) const {
   const auto goes = [&](int x) {
-    return std::all_of(star_[x].begin(), star_[x].end(),
+    return std::all_of((*star_)[x].begin(), (*star_)[x].end(),
                        [&](int t) { return std::binary_search(dying_.begin(), dying_.end(), t); });
   };
   const auto is_member = [&](int x) {

@@ -66,6 +66,16 @@ std::vector<std::vector<int>> vertex_stars(const FilmMesh& mesh) {
   return star;
 }
 
+VertexStars::VertexStars(const FilmMesh& mesh) : offset_(mesh.n_vertices() + 1, 0) {
+  for (const FilmTriangle& t : mesh.triangle)
+    for (int v : t.vertex) ++offset_[v + 1];
+  std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
+  triangle_.resize(offset_.back());
+  std::vector<int> end(offset_.begin(), offset_.end() - 1);
+  for (int t = 0; t < mesh.n_triangles(); ++t)
+    for (int v : mesh.triangle[t].vertex) triangle_[end[v]++] = t;
+}
+
 std::vector<double> targets_at_vertices(const FilmMesh& mesh, const TargetLength& target) {
   std::vector<double> length(mesh.n_vertices());
   for (int v = 0; v < mesh.n_vertices(); ++v) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <compare>
+#include <span>
 #include <vector>
 
 #include "spume/mesh/film_mesh.hpp"
@@ -33,8 +34,19 @@ EdgeTable build_edges(const FilmMesh& mesh);
 /// The same of the edges whose both ends count.
 EdgeTable build_edges(const FilmMesh& mesh, const std::vector<char>& counts);
 
-/// Triangles at each vertex, in increasing order.
+/// Triangles at each vertex, in increasing order; those that may change.
 std::vector<std::vector<int>> vertex_stars(const FilmMesh& mesh);
+/// The same in one piece, to be read only.
+class VertexStars {
+ public:
+  explicit VertexStars(const FilmMesh& mesh);
+  std::span<const int> operator[](int v) const {
+    return {triangle_.data() + offset_[v], triangle_.data() + offset_[v + 1]};
+  }
+
+ private:
+  std::vector<int> offset_, triangle_;
+};
 
 /// Wanted edge length at each vertex [m].
 std::vector<double> targets_at_vertices(const FilmMesh& mesh, const TargetLength& target);
