@@ -169,12 +169,12 @@ Reconstruction construct(const grid::Grid& grid, const Potential& potential, sta
   for (mesh::Phase p = 1; p < n_functions; ++p)
     if (!start.find(p)) report.changes.push_back({ReconstructReport::PhaseChange::Kind::Lost, p, 0, 0.0});
 
-  Reconstruction result{std::move(found.films), std::move(report), nullptr};
+  Reconstruction result{std::move(found.films), std::move(found.topology), std::move(report), nullptr};
   for (int pass = 0; pass < 2; ++pass) {
-    Reconstruction next = reconstruct(grid, result.films, phases, parameters);
+    Reconstruction next = reconstruct(grid, result.films, result.topology, phases, parameters);
     append(result.report, std::move(next.report));
-    result.films = std::move(next.films);
-    result.potentials = std::move(next.potentials);
+    next.report = std::move(result.report);
+    result = std::move(next);
   }
   bool any_wanted = false;
   for (mesh::Phase p = 1; p < n_functions; ++p) {

@@ -27,10 +27,9 @@ void require_clearance(const grid::Grid& grid, const mesh::FilmMesh& films) {
   if (const auto problem = clearance_problem(grid, films); !problem.empty()) throw NumericalError(problem);
 }
 
-PhasePotentials potentials_from(const grid::Grid& grid, mesh::FilmMesh films, int n_phases,
-                                const ReconstructParameters& parameters, StageTimes& times) {
+PhasePotentials potentials_from(const grid::Grid& grid, mesh::FilmMesh films, const mesh::Topology& topology,
+                                int n_phases, const ReconstructParameters& parameters, StageTimes& times) {
   const double h = grid.h(), variance = parameters.smoothing * h * h;
-  const mesh::Topology topology = mesh::build_topology(films);
   step_in_advance(films, topology, variance / 10 + parameters.relaxation * h * h, h, n_phases);
   const auto midpoints = edge_midpoints(films, topology);
   const PhaseBlocks blocks = blocks_of_phases(grid, films, n_phases);
@@ -55,29 +54,36 @@ std::vector<mesh::Phase> unresolved_bubbles(const PhasePotentials& potentials, c
   return unresolved;
 }
 
-/// Potentials of a mesh from which bubbles too small for the grid have been taken out.
-PhasePotentials potentials_of_resolved(const grid::Grid& grid, mesh::FilmMesh& films, state::Phases& phases,
+/// Potentials of the films without the bubbles that are too small for the grid.
+PhasePotentials potentials_of_resolved(const grid::Grid& grid, const mesh::FilmMesh& films,
+                                       const mesh::Topology& topology, state::Phases& phases,
                                        const ReconstructParameters& parameters, double smallest_volume,
                                        ReconstructReport& report) {
-  remove_small_bubbles(films, phases, smallest_volume, report.changes);
+  mesh::FilmMesh resolved = films;
+  remove_small_bubbles(resolved, phases, smallest_volume, report.changes);
+  std::optional<mesh::Topology> changed;
+  if (!report.changes.empty()) changed = mesh::build_topology(resolved);
   for (;;) {
-    PhasePotentials potentials = potentials_from(grid, films, phases.count(), parameters, report.times);
+    PhasePotentials potentials = potentials_from(grid, resolved, changed ? *changed : topology,
+                                                 phases.count(), parameters, report.times);
     const auto unresolved = unresolved_bubbles(potentials, phases, smallest_volume);
     if (unresolved.empty()) return potentials;
-    for (mesh::Phase p : unresolved) remove_bubble(films, phases, p, report.changes);
+    for (mesh::Phase p : unresolved) remove_bubble(resolved, phases, p, report.changes);
+    changed = mesh::build_topology(resolved);
   }
 }
 
 /// Relaxes a fresh mesh over a short time, by which the step in advance was longer: smooth shapes stay as
 /// they are, while the kinks beside borders go and vertices settle in the discrete minimum of the area, above
-/// which a fresh sampling of smooth films lies. What shrank to a point meanwhile is drawn together.
-void settle(mesh::FilmMesh& films, const state::Phases& phases, const ReconstructParameters& parameters,
-            double h) {
+/// which a fresh sampling of smooth films lies. What shrank to a point meanwhile is drawn together. Gives the
+/// topology of the mesh.
+mesh::Topology settle(mesh::FilmMesh& films, const state::Phases& phases,
+                      const ReconstructParameters& parameters, double h) {
   constexpr int n_steps = 4;
-  if (!(parameters.relaxation > 0) || films.triangle.empty()) return;
+  mesh::Topology topology = mesh::build_topology(films);
+  if (!(parameters.relaxation > 0) || films.triangle.empty()) return topology;
   state::Phases measured = phases;
   if (!parameters.conserve_volumes) measured.target_volume = mesh::phase_volumes(films, phases.count());
-  const mesh::Topology topology = mesh::build_topology(films);
   for (int n = 0; n < n_steps; ++n)
     relax_step(films, topology, measured, parameters.relaxation * h * h / n_steps);
 
@@ -85,22 +91,29 @@ void settle(mesh::FilmMesh& films, const state::Phases& phases, const Reconstruc
   tidying.collapse_below = tidying.merge_below;
   tidying.smoothing_sweeps = 0;
   const auto where_it_is = [](const Vec3& x, const mesh::PhaseSet&) { return std::optional(x); };
-  mesh::remesh(
+  const auto tidied = mesh::remesh(
       films, [edge_length = parameters.edge * h](const Vec3&) { return edge_length; }, where_it_is, tidying);
+  if (tidied.changed()) topology = mesh::build_topology(films);
   mesh::restore_volumes(films, measured.target_volume, 3, largest_volume_step * h);
+  return topology;
 }
 
 }  // namespace
 
 Reconstruction reconstruct(const grid::Grid& grid, const mesh::FilmMesh& films, state::Phases& phases,
                            const ReconstructParameters& parameters) {
+  return reconstruct(grid, films, mesh::build_topology(films), phases, parameters);
+}
+
+Reconstruction reconstruct(const grid::Grid& grid, const mesh::FilmMesh& films,
+                           const mesh::Topology& topology, state::Phases& phases,
+                           const ReconstructParameters& parameters) {
   const double h = grid.h(), edge = parameters.smallest_bubble_cells * h,
                smallest_volume = edge * edge * edge;
   ReconstructReport report;
   require_clearance(grid, films);
-  mesh::FilmMesh resolved = films;
   auto potentials = std::make_shared<PhasePotentials>(
-      potentials_of_resolved(grid, resolved, phases, parameters, smallest_volume, report));
+      potentials_of_resolved(grid, films, topology, phases, parameters, smallest_volume, report));
   return extract_films(grid, std::move(potentials), phases, parameters, std::move(report));
 }
 
@@ -128,12 +141,12 @@ Reconstruction extract_films(const grid::Grid& grid, std::shared_ptr<PhasePotent
     report.largest_volume_displacement =
         mesh::restore_volumes(mesh, phases.target_volume, 3, largest_volume_step * h);
   report.times.lap("volumes");
-  settle(mesh, phases, parameters, h);
+  mesh::Topology topology = settle(mesh, phases, parameters, h);
   report.times.lap("settling");
-  report.n_nonconforming_edges = mesh::build_topology(mesh).n_nonconforming_edges;
+  report.n_nonconforming_edges = topology.n_nonconforming_edges;
   require_clearance(grid, mesh);
   report.times.lap("checks");
-  return {std::move(mesh), std::move(report), std::move(potentials)};
+  return {std::move(mesh), std::move(topology), std::move(report), std::move(potentials)};
 }
 
 mesh::Projection projection_onto(std::shared_ptr<const PhasePotentials> potentials) {

@@ -9,6 +9,7 @@
 #include "spume/grid/grid.hpp"
 #include "spume/mesh/film_mesh.hpp"
 #include "spume/mesh/remesh.hpp"
+#include "spume/mesh/topology.hpp"
 #include "spume/state/phases.hpp"
 
 namespace spume::interface {
@@ -53,6 +54,7 @@ class PhasePotentials;
 
 struct Reconstruction {
   mesh::FilmMesh films;
+  mesh::Topology topology;  ///< of the films
   ReconstructReport report;
   std::shared_ptr<const PhasePotentials> potentials;
 };
@@ -62,6 +64,10 @@ struct Reconstruction {
 /// consistent with that. Collective; every rank gets the same mesh. Throws NumericalError when a film comes
 /// within four cells of a wall.
 Reconstruction reconstruct(const grid::Grid& grid, const mesh::FilmMesh& films, state::Phases& phases,
+                           const ReconstructParameters& parameters);
+/// The same for films whose topology is known.
+Reconstruction reconstruct(const grid::Grid& grid, const mesh::FilmMesh& films,
+                           const mesh::Topology& topology, state::Phases& phases,
                            const ReconstructParameters& parameters);
 
 /// The films of given potentials, which are the second half of reconstruct(): single pieces, contour,

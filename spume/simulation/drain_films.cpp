@@ -52,7 +52,7 @@ double layer_width(const state::Foam& foam, const mesh::Topology& topology) {
 /// Reconstructs the films once more, for a projection onto them, and gives them the mesh for drainage.
 void mesh_films(const grid::Grid& grid, const Case& run_case, RunState& run, Witness& witness) {
   const double old_area = mesh::film_area(run.foam.films);
-  FilmUpdate update = reconstruct_films(grid, run_case, run.foam);
+  FilmUpdate update = reconstruct_films(grid, run_case, mesh::build_topology(run.foam.films), run.foam);
   witness.events(update.events);
   mesh::FilmMesh films = run.foam.films;
   meshing::MeshingParameters parameters = run_case.meshing;
@@ -61,7 +61,8 @@ void mesh_films(const grid::Grid& grid, const Case& run_case, RunState& run, Wit
       meshing::improve(films, interface::projection_onto(update.potentials), grid.h(), parameters);
   if (run_case.rearrangement.conserve_volumes)
     mesh::restore_volumes(films, run.foam.phases.target_volume, 3, 0.1 * grid.h());
-  const auto topology = replace_films(run_case, grid.h(), std::move(films), run.foam, update.transfer);
+  const mesh::Topology topology = mesh::build_topology(films);
+  replace_films(run_case, grid.h(), std::move(films), topology, update.topology, run.foam, update.transfer);
   const double correction =
       2 * run_case.materials.film.surface_tension * (mesh::film_area(run.foam.films) - old_area);
   witness.step(run, topology, {.correction = correction}, "meshing");

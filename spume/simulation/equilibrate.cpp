@@ -92,7 +92,7 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
   bool stays_poor = false;  // reconstructing does not help
   while (report.n_steps < most_steps) {
     const std::vector<Vec3> before = foam.films.position;
-    const auto step = interface::relax_step(foam.films, foam.phases, pace.tau());
+    const auto step = interface::relax_step(foam.films, topology, foam.phases, pace.tau());
     if (step.area_after > step.area_before && !pace.exhausted()) {
       foam.films.position = before;
       pace.slow_down();
@@ -115,7 +115,7 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
     if (motion < largest_motion_cells && !at_rest && !poor) continue;
 
     is_fine = is_fine || (at_rest && !poor);
-    FilmUpdate update = reconstruct_films(grid, is_fine ? fine_case : run_case, foam);
+    FilmUpdate update = reconstruct_films(grid, is_fine ? fine_case : run_case, topology, foam);
     ++report.n_reconstructions;
     events.insert(events.end(), update.events.begin(), update.events.end());
     topology = std::move(update.topology);

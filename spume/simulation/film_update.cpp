@@ -62,25 +62,29 @@ state::Event describe(double time, const interface::ReconstructReport::PhaseChan
 
 }  // namespace
 
-FilmUpdate reconstruct_films(const grid::Grid& grid, const Case& run_case, state::Foam& foam) {
+FilmUpdate reconstruct_films(const grid::Grid& grid, const Case& run_case, const mesh::Topology& topology,
+                             state::Foam& foam) {
   return take_over(run_case, grid.h(),
-                   interface::reconstruct(grid, foam.films, foam.phases, run_case.reconstruct), foam);
+                   interface::reconstruct(grid, foam.films, topology, foam.phases, run_case.reconstruct),
+                   topology, foam);
 }
 
 FilmUpdate take_over(const Case& run_case, double h, interface::Reconstruction reconstruction,
-                     state::Foam& foam) {
-  const mesh::Topology old_topology = mesh::build_topology(foam.films);
+                     const mesh::Topology& topology_before, state::Foam& foam) {
   const double old_area = mesh::film_area(foam.films);
   FilmUpdate update;
   update.reconstruction = std::move(reconstruction.report);
   update.potentials = std::move(reconstruction.potentials);
-  update.topology = replace_films(run_case, h, std::move(reconstruction.films), foam, update.transfer);
+  update.topology = std::move(reconstruction.topology);
+  replace_films(run_case, h, std::move(reconstruction.films), update.topology, topology_before, foam,
+                update.transfer);
   update.energy_correction =
       2 * run_case.materials.film.surface_tension * (mesh::film_area(foam.films) - old_area);
 
   const auto& report = update.reconstruction;
   for (const auto& change : report.changes) update.events.push_back(describe(foam.time, change));
-  const PhasePairs before = phase_pairs(old_topology, report), after = phase_pairs(update.topology, report);
+  const PhasePairs before = phase_pairs(topology_before, report),
+                   after = phase_pairs(update.topology, report);
   if (before != after)
     update.events.push_back(
         {foam.time, "T1",
@@ -93,14 +97,12 @@ FilmUpdate take_over(const Case& run_case, double h, interface::Reconstruction r
   return update;
 }
 
-mesh::Topology replace_films(const Case& run_case, double h, mesh::FilmMesh films, state::Foam& foam,
-                             transport::TransferReport& report) {
-  const mesh::Topology old_topology = mesh::build_topology(foam.films);
-  mesh::Topology topology = mesh::build_topology(films);
-  foam.liquid = transport::transfer(foam.films, old_topology, foam.liquid, films, topology, h,
+void replace_films(const Case& run_case, double h, mesh::FilmMesh films, const mesh::Topology& topology,
+                   const mesh::Topology& topology_before, state::Foam& foam,
+                   transport::TransferReport& report) {
+  foam.liquid = transport::transfer(foam.films, topology_before, foam.liquid, films, topology, h,
                                     run_case.transport, report);
   foam.films = std::move(films);
-  return topology;
 }
 
 }  // namespace spume::simulation

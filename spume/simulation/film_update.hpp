@@ -23,16 +23,18 @@ struct FilmUpdate {
 };
 
 /// Reconstructs the films of a foam and carries the liquid over. A change of the set of phase pairs that
-/// share films is reported as a T1. Collective.
-FilmUpdate reconstruct_films(const grid::Grid& grid, const Case& run_case, state::Foam& foam);
+/// share films is reported as a T1. `topology` is that of foam.films. Collective.
+FilmUpdate reconstruct_films(const grid::Grid& grid, const Case& run_case, const mesh::Topology& topology,
+                             state::Foam& foam);
 
 /// Makes reconstructed films those of a foam, with its liquid, and tells what changed. foam.phases are those
-/// after the reconstruction already, foam.films those before.
+/// after the reconstruction already, foam.films those before, with their topology.
 FilmUpdate take_over(const Case& run_case, double h, interface::Reconstruction reconstruction,
-                     state::Foam& foam);
+                     const mesh::Topology& topology_before, state::Foam& foam);
 
-/// Gives the foam another mesh of the same films, with its liquid.
-mesh::Topology replace_films(const Case& run_case, double h, mesh::FilmMesh films, state::Foam& foam,
-                             transport::TransferReport& report);
+/// Gives a foam, whose films have `topology_before`, another mesh of the same films, with its liquid.
+void replace_films(const Case& run_case, double h, mesh::FilmMesh films, const mesh::Topology& topology,
+                   const mesh::Topology& topology_before, state::Foam& foam,
+                   transport::TransferReport& report);
 
 }  // namespace spume::simulation

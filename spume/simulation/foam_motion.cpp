@@ -69,7 +69,7 @@ bool FoamMotion::needs_reconstruction() const {
 
 FilmUpdate FoamMotion::reconstruct() {
   const double start = processor_time();
-  FilmUpdate update = reconstruct_films(grid_, case_, run_.foam);
+  FilmUpdate update = reconstruct_films(grid_, case_, topology_, run_.foam);
   double inside = 0;
   for (const auto& [stage, seconds] : update.reconstruction.times.seconds()) {
     reconstruction_times_.add(stage, seconds);
@@ -90,7 +90,7 @@ double FoamMotion::carry_films(double dt, std::vector<state::Event>& events) {
   times_.lap("gas");
   sharpening_.apply(film_velocity_);
   if (viim_) {
-    ViimStep moved = viim_->move(foam, film_velocity_, kernel_, dt);
+    ViimStep moved = viim_->move(foam, topology_, film_velocity_, kernel_, dt);
     topology_ = std::move(moved.update.topology);
     events = std::move(moved.update.events);
     run_.rearrange.reference = foam.films.position;

@@ -14,7 +14,7 @@ FilmUpdate tear(const grid::Grid& grid, const Case& run_case, mesh::Phase a, mes
   const double area_left = mesh::film_area(foam.films);
   FilmUpdate update;
   if (foam.phases.n_bubbles() > 0) {
-    update = reconstruct_films(grid, run_case, foam);
+    update = reconstruct_films(grid, run_case, mesh::build_topology(foam.films), foam);
   } else {
     update.topology = mesh::build_topology(foam.films);
   }

@@ -18,12 +18,12 @@ ViimMotion::ViimMotion(const grid::Grid& grid, const Case& run_case, const state
                   .rebuild_displacement = run_case.rearrangement.reconstruction_displacement},
                  foam.films, io::rasterize_phases(foam.films, foam.phases.count(), grid.box())) {}
 
-ViimStep ViimMotion::move(state::Foam& foam, const grid::VectorField& velocity,
-                          const grid::KernelCoupling& kernel, double dt) {
+ViimStep ViimMotion::move(state::Foam& foam, const mesh::Topology& topology,
+                          const grid::VectorField& velocity, const grid::KernelCoupling& kernel, double dt) {
   auto reconstruction = evolution_.move(foam.films, foam.phases, velocity, kernel, dt, case_.reconstruct);
   interface::carry(foam.films, velocity, kernel, dt);
   const double area_carried = mesh::film_area(foam.films);
-  return {area_carried, take_over(case_, h_, std::move(reconstruction), foam)};
+  return {area_carried, take_over(case_, h_, std::move(reconstruction), topology, foam)};
 }
 
 }  // namespace spume::simulation

@@ -22,8 +22,8 @@ class ViimMotion {
 
   /// Moves the films for dt [s] with the gas, whose velocity lies where the kernel takes it. The old mesh,
   /// carried by the gas, brings its liquid to the new one. Collective.
-  ViimStep move(state::Foam& foam, const grid::VectorField& velocity, const grid::KernelCoupling& kernel,
-                double dt);
+  ViimStep move(state::Foam& foam, const mesh::Topology& topology, const grid::VectorField& velocity,
+                const grid::KernelCoupling& kernel, double dt);
 
  private:
   const Case& case_;

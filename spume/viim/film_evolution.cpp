@@ -42,7 +42,7 @@ interface::Reconstruction FilmEvolution::move(const mesh::FilmMesh& films, state
   const bool labels_agree = relabel(*result.potentials);
   if (lost || !labels_agree || !result.report.changes.empty() || steps_ >= parameters_.rebuild_interval ||
       displacement_ >= parameters_.rebuild_displacement * h) {
-    field_ = distance_to(result.films, mesh::build_topology(result.films), *result.potentials);
+    field_ = distance_to(result.films, result.topology, *result.potentials);
     steps_ = 0;
     displacement_ = 0;
   }

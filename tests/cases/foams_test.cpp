@@ -261,7 +261,7 @@ class Cluster : public ::testing::Test {
 };
 
 TEST_F(Cluster, has_a_conforming_mesh_of_good_triangles_for_drainage) {
-  const FilmUpdate update = reconstruct_films(grid, run_case, foam);
+  const FilmUpdate update = reconstruct_films(grid, run_case, mesh::build_topology(foam.films), foam);
   mesh::FilmMesh films = foam.films;
   meshing::improve(films, interface::projection_onto(update.potentials), grid.h(), run_case.meshing);
   const auto topology = mesh::build_topology(films);
