@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "spume/base/error.hpp"
-#include "spume/base/flat_map.hpp"
+#include "spume/interface/contour_parts.hpp"
 #include "spume/interface/field_bins.hpp"
 
 namespace spume::interface {
@@ -33,20 +33,6 @@ struct Polygon {
   std::array<Corner, max_corners> corner;
   int n = 0;
   bool reversed = false;
-};
-
-struct VertexKey {
-  std::uint64_t simplex;              ///< lowest lattice point and chain of steps
-  std::array<mesh::Phase, 4> phases;  ///< increasing, filled up with −1
-  bool operator==(const VertexKey&) const = default;
-};
-struct VertexKeyHash {
-  std::size_t operator()(const VertexKey& key) const {
-    std::uint64_t hash = key.simplex * 0x9E3779B97F4A7C15ull;
-    for (mesh::Phase p : key.phases)
-      hash = (hash ^ (hash >> 29) ^ static_cast<std::uint64_t>(p + 1)) * 0xBF58476D1CE4E5B9ull;
-    return hash ^ (hash >> 32);
-  }
 };
 
 /// The triangles that the faces of a cube are cut into, seen from outside; their diagonals are those of the
@@ -82,42 +68,78 @@ class Contourer {
         winner_(winner),
         pieces_(pieces),
         bins_(potentials),
-        whole_(all_cells(potentials.box().cells)) {
+        whole_(all_cells(potentials.box().cells)),
+        cubes_(whole_) {
     films_.domain = potentials.box().domain();
+    for (int d = 0; d < 3; ++d)
+      if (!potentials_.lattice().periodic[d]) --cubes_.end[d];
   }
 
-  mesh::FilmMesh run() {
-    CellBox cubes = whole_;
-    for (int d = 0; d < 3; ++d)
-      if (!potentials_.lattice().periodic[d]) --cubes.end[d];
+  /// The films of the layers of cubes from `begin` to before `end`.
+  ContourPart run(int begin, int end) {
+    begin_ = begin;
+    end_ = end;
+    const int n_layers = cubes_.end.k;
     kind_.assign(whole_.size(), CubeKind::Empty);
-    const auto for_each_mixed_cube = [&](auto&& body) {
-      for (int k = cubes.begin.k; k < cubes.end.k; ++k)
-        for (int j = cubes.begin.j; j < cubes.end.j; ++j) {
-          find_mixed_cubes(cubes.end.i, j, k);
-          for (int i = cubes.begin.i; i < cubes.end.i; ++i)
-            if (mixed_[i]) {
-              read_winners(i, j, k);
-              find_candidates(i, j, k);
-              cube_ = {i, j, k};
-              body(kind_[whole_.offset(i, j, k)]);
-            }
-        }
-    };
-    for_each_mixed_cube([&](CubeKind& kind) {
-      const bool one_film = pieces_ == Pieces::OfCubes && n_cube_ == 2 && !has_ambiguous_face();
-      kind = one_film ? CubeKind::OneFilm : CubeKind::Several;
-    });
-    for_each_mixed_cube([&](CubeKind& kind) {
-      if (kind == CubeKind::OneFilm)
-        contour_one_film();
-      else
-        contour_tetrahedra();
-    });
-    return std::move(films_);
+    // A cube looks at its neighbours, too.
+    for (int k = begin - 1; k <= end; ++k) {
+      const int layer = potentials_.lattice().image(k, 0, 2);
+      if (layer >= 0 && layer < n_layers)
+        for_each_mixed_cube(layer, [&](CubeKind& kind) { kind = kind_of_cube(); });
+    }
+    for (int k = begin; k < end; ++k)
+      for_each_mixed_cube(k, [&](CubeKind& kind) {
+        if (kind == CubeKind::OneFilm)
+          contour_one_film();
+        else
+          contour_tetrahedra();
+      });
+    return {std::move(films_), std::move(seam_)};
+  }
+
+  /// Offsets of shares of the layers with about as many films each.
+  std::vector<int> shares_of_layers(int n_shares) {
+    std::vector<long> up_to{0};
+    for (int k = 0; k < cubes_.end.k; ++k) {
+      long n_mixed = 0;
+      for (int j = 0; j < cubes_.end.j; ++j) {
+        find_mixed_cubes(cubes_.end.i, j, k);
+        n_mixed += std::count_if(mixed_.begin(), mixed_.end(), [](int mixed) { return mixed != 0; });
+      }
+      up_to.push_back(up_to.back() + n_mixed);
+    }
+    std::vector<int> offset;
+    for (int n = 0; n <= n_shares; ++n)
+      offset.push_back(static_cast<int>(
+          std::lower_bound(up_to.begin(), up_to.end(), up_to.back() * n / n_shares) - up_to.begin()));
+    offset.back() = cubes_.end.k;
+    return offset;
   }
 
  private:
+  template <class Body>
+  void for_each_mixed_cube(int k, Body&& body) {
+    for (int j = cubes_.begin.j; j < cubes_.end.j; ++j) {
+      find_mixed_cubes(cubes_.end.i, j, k);
+      for (int i = cubes_.begin.i; i < cubes_.end.i; ++i)
+        if (mixed_[i]) {
+          cube_ = {i, j, k};
+          read_winners(i, j, k);
+          body(kind_[whole_.offset(i, j, k)]);
+        }
+    }
+  }
+  CubeKind kind_of_cube() {
+    if (pieces_ == Pieces::OfTetrahedra || !has_two_winners() || has_ambiguous_face())
+      return CubeKind::Several;
+    find_candidates();
+    return n_cube_ == 2 ? CubeKind::OneFilm : CubeKind::Several;
+  }
+  bool has_two_winners() const {
+    const auto& w = cube_winner_;
+    const mesh::Phase other = *std::find_if(w.begin(), w.end(), [&](mesh::Phase p) { return p != w[0]; });
+    return std::all_of(w.begin(), w.end(), [&](mesh::Phase p) { return p == w[0] || p == other; });
+  }
   /// Marks the cubes of a row that are not of one winner.
   void find_mixed_cubes(int n, int j, int k) {
     const int last = whole_.end.i - 1;  // whose cube, in a periodic row, goes on at the other end
@@ -168,6 +190,11 @@ class Contourer {
   /// On faces to cubes with several films the lines have the corners of the tetrahedra there, elsewhere only
   /// those on the edges of the cube.
   void contour_one_film() {
+    const auto [low, high] = std::minmax_element(cube_winner_.begin(), cube_winner_.end());
+    cube_phase_[0] = *low;
+    cube_phase_[1] = *high;
+    for (int c = 0; c < 2; ++c)
+      cube_value_[c] = values_of_cube(*potentials_.find(cube_phase_[c]), cube_.i, cube_.j, cube_.k);
     std::array<double, 8> excess;  // of the first phase
     for (int c = 0; c < 8; ++c) excess[c] = cube_value_[0][c] - cube_value_[1][c];
     constexpr int none = -1;
@@ -209,7 +236,7 @@ class Contourer {
     const VertexKey key{
         lattice_point(cube_.i, cube_.j, cube_.k, low) << 9 | static_cast<unsigned>(low ^ high),
         {cube_phase_[0], cube_phase_[1], -1, -1}};
-    const int number = vertex_of_.find_or_insert(key, films_.n_vertices());
+    const int number = number_of(key);
     if (number == films_.n_vertices()) {
       const double s = excess[low] == excess[high] ? 0.5 : excess[low] / (excess[low] - excess[high]);
       Vec3 place{cube_.i + 0.5, cube_.j + 0.5, cube_.k + 0.5};
@@ -220,6 +247,7 @@ class Contourer {
   }
 
   void contour_tetrahedra() {
+    find_candidates();
     for (int t = 0; t < 6; ++t) {
       const auto& axis = axis_orders[t];
       mask_ = {0, 1 << axis[0], (1 << axis[0]) | (1 << axis[1]), 7};
@@ -233,7 +261,8 @@ class Contourer {
   }
 
   /// Phases with values at all eight corners that no winner beats at all of them.
-  void find_candidates(int i, int j, int k) {
+  void find_candidates() {
+    const auto [i, j, k] = cube_;
     n_cube_ = 0;
     for (const PhaseField* field : bins_.at(i, j, k)) {
       if (!field->place(i, j, k) || !field->place(i + 1, j + 1, k + 1)) continue;
@@ -401,6 +430,18 @@ class Contourer {
     add(v[0], v[1], v[2]);
   }
 
+  /// The number of a vertex, one more than the last if it is new; it is noted if it may be one of the
+  /// neighbouring layers of cubes, too.
+  int number_of(const VertexKey& key) {
+    constexpr std::uint64_t steps_along_z = 0b100100100;
+    const int number = vertex_of_.find_or_insert(key, films_.n_vertices());
+    if (number == films_.n_vertices() && !(key.simplex & steps_along_z)) {
+      const int k = static_cast<int>((key.simplex >> 9) / static_cast<std::uint64_t>(whole_.stride_z()));
+      if (k == begin_ || k == potentials_.lattice().image(end_, 0, 2)) seam_.push_back({key, number});
+    }
+    return number;
+  }
+
   /// Number of the vertex at a corner of the polygon; a new one unless its key is known.
   int vertex(int a, int b, const Polygon& polygon, int corner) {
     unsigned in_simplex = 15;
@@ -420,7 +461,7 @@ class Contourer {
         chain |= static_cast<std::uint64_t>(mask_[c] ^ mask_[lowest]) << (3 * n_steps++);
     VertexKey key{lattice_point(cube_.i, cube_.j, cube_.k, mask_[lowest]) << 9 | chain, {-1, -1, -1, -1}};
     std::copy(phases.begin(), phases.end(), key.phases.begin());
-    const int number = vertex_of_.find_or_insert(key, films_.n_vertices());
+    const int number = number_of(key);
     if (number == films_.n_vertices()) films_.position.push_back(position(polygon.corner[corner]));
     return number;
   }
@@ -438,8 +479,11 @@ class Contourer {
   Pieces pieces_;
   FieldBins bins_;
   CellBox whole_;
+  CellBox cubes_;  ///< by their lowest corners
+  int begin_ = 0, end_ = 0;
   mesh::FilmMesh films_;
-  FlatMap<VertexKey, VertexKeyHash> vertex_of_;
+  std::vector<SeamVertex> seam_;
+  VertexNumbers vertex_of_;
   std::vector<CubeKind> kind_;  ///< of the cube above each lattice point
   std::vector<int> mixed_;      ///< of the row: 0 where all corners of a cube have one winner
 
@@ -459,9 +503,15 @@ class Contourer {
 
 }  // namespace
 
-mesh::FilmMesh contour(const PhasePotentials& potentials, const std::vector<mesh::Phase>& winner,
-                       Pieces pieces) {
-  return Contourer(potentials, winner, pieces).run();
+mesh::FilmMesh contour(const parallel::Communicator& ranks, const PhasePotentials& potentials,
+                       const std::vector<mesh::Phase>& winner, Pieces pieces) {
+  ContourPart part;
+  ranks.together([&] {
+    Contourer contourer(potentials, winner, pieces);
+    const auto share = contourer.shares_of_layers(ranks.size());
+    part = contourer.run(share[ranks.rank()], share[ranks.rank() + 1]);
+  });
+  return joined(ranks, std::move(part));
 }
 
 }  // namespace spume::interface

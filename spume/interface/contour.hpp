@@ -4,6 +4,7 @@
 
 #include "spume/interface/potentials.hpp"
 #include "spume/mesh/film_mesh.hpp"
+#include "spume/parallel/communicator.hpp"
 
 namespace spume::interface {
 
@@ -24,10 +25,11 @@ enum class Pieces { OfCubes, OfTetrahedra };
 /// tetrahedron or a clipping phase, and these give that key. Orientation follows from the order of the
 /// tetrahedron's corners. Polygons are cut into triangles by their shortest diagonals.
 ///
-/// `winner` is Winners::phase of the potentials. Phases that one winner beats at all corners of a cube are
-/// left out; a phase may win inside a tetrahedron without winning at a corner. Throws NumericalError where
-/// more than 24 phases compete in a cube.
-mesh::FilmMesh contour(const PhasePotentials& potentials, const std::vector<mesh::Phase>& winner,
-                       Pieces pieces = Pieces::OfCubes);
+/// `winner` is as of find_winners(), the same on every rank as the potentials. Phases that one winner beats
+/// at all corners of a cube are left out; a phase may win inside a tetrahedron without winning at a corner.
+/// Throws NumericalError where more than 24 phases compete in a cube. Collective: each rank does some layers
+/// of cubes, and gets the whole mesh, the same as one rank would make.
+mesh::FilmMesh contour(const parallel::Communicator& ranks, const PhasePotentials& potentials,
+                       const std::vector<mesh::Phase>& winner, Pieces pieces = Pieces::OfCubes);
 
 }  // namespace spume::interface

@@ -11,10 +11,10 @@ namespace spume::interface {
 namespace {
 
 /// Winners of potentials whose phases are single pieces.
-Winners separated(PhasePotentials& potentials, state::Phases& phases, double smallest_volume,
-                  std::vector<PhaseChange>& changes) {
+std::vector<mesh::Phase> separated(PhasePotentials& potentials, state::Phases& phases, double smallest_volume,
+                                   std::vector<PhaseChange>& changes) {
   constexpr int max_rounds = 4;
-  Winners winners = find_winners(potentials);
+  std::vector<mesh::Phase> winners = find_winners(potentials);
   for (int n = 0; n < max_rounds && separate_pieces(potentials, winners, phases, smallest_volume, changes);
        ++n)
     winners = find_winners(potentials);
@@ -22,37 +22,37 @@ Winners separated(PhasePotentials& potentials, state::Phases& phases, double sma
 }
 
 /// Adds noise of the given amplitude [m] to all potentials where the two largest are within four cells.
-void perturb_ties(PhasePotentials& potentials, const Winners& winners, double amplitude, std::uint64_t seed) {
+void perturb_ties(PhasePotentials& potentials, double amplitude, std::uint64_t seed) {
   Random random(seed);
   const double near = 4 * potentials.h();
+  const std::vector<double> lead = leads_of_winners(potentials);
   std::vector<mesh::Phase> phases;
   for (const auto& field : potentials.fields()) phases.push_back(field.phase);
   for (mesh::Phase p : phases) {
     PhaseField& field = *potentials.find(p);
     for_each_cell_of_grid(field.cells, potentials.lattice(), [&](std::size_t n, std::size_t cell) {
-      if (winners.first[cell] - winners.second[cell] < near)
-        field.value[n] += amplitude * random.uniform(-0.5, 0.5);
+      if (lead[cell] < near) field.value[n] += amplitude * random.uniform(-0.5, 0.5);
     });
   }
 }
 
 }  // namespace
 
-FoundFilms find_films(PhasePotentials& potentials, state::Phases& phases, double smallest_volume,
-                      std::vector<PhaseChange>& changes) {
+FoundFilms find_films(const parallel::Communicator& ranks, PhasePotentials& potentials, state::Phases& phases,
+                      double smallest_volume, std::vector<PhaseChange>& changes) {
   constexpr int max_retries = 3;
   const std::size_t first_change = changes.size();
   double amplitude = 1e-9 * potentials.h();
   FoundFilms found;
   for (int retry = 0;; ++retry) {
-    const Winners winners = separated(potentials, phases, smallest_volume, changes);
-    found.films = contour(potentials, winners.phase);
+    const auto winners = separated(potentials, phases, smallest_volume, changes);
+    found.films = contour(ranks, potentials, winners);
     found.topology = mesh::build_topology(found.films);
     if (retry == max_retries) break;
     const int n_specks = suppress_specks(potentials, winners, found.films, found.topology, smallest_volume);
     if (n_specks == 0 && found.topology.n_nonconforming_edges == 0) break;
     if (found.topology.n_nonconforming_edges > 0) {
-      perturb_ties(potentials, winners, amplitude, retry);
+      perturb_ties(potentials, amplitude, retry);
       amplitude *= 10;
     }
   }
@@ -62,28 +62,16 @@ FoundFilms find_films(PhasePotentials& potentials, state::Phases& phases, double
 
 int project_vertices(const parallel::Communicator& ranks, const PhasePotentials& potentials,
                      const mesh::Topology& topology, mesh::FilmMesh& films) {
-  const auto begin_of = [&](int rank) {
-    return static_cast<int>(static_cast<long>(films.n_vertices()) * rank / ranks.size());
-  };
+  const std::vector<int> share = ranks.shares(films.n_vertices());
   int n_refused = 0;
-  for (int v = begin_of(ranks.rank()); v < begin_of(ranks.rank() + 1); ++v) {
+  for (int v = share[ranks.rank()]; v < share[ranks.rank() + 1]; ++v) {
     const auto projected = potentials.project(films.position[v], topology.vertex_phases[v]);
     if (projected)
       films.position[v] = *projected;
     else
       ++n_refused;
   }
-  if (ranks.size() == 1) return n_refused;
-  std::vector<double> share;
-  for (int rank = 0; rank < ranks.size(); ++rank) {
-    const int begin = begin_of(rank), end = begin_of(rank + 1);
-    share.resize(3 * static_cast<std::size_t>(end - begin));
-    for (int v = begin; v < end; ++v)
-      for (int d = 0; d < 3; ++d) share[3 * (v - begin) + d] = films.position[v][d];
-    ranks.broadcast(share, rank);
-    for (int v = begin; v < end; ++v)
-      for (int d = 0; d < 3; ++d) films.position[v][d] = share[3 * (v - begin) + d];
-  }
+  ranks.all_gather(std::span(films.position), share);
   return static_cast<int>(ranks.sum(n_refused));
 }
 

@@ -213,16 +213,16 @@ PhasePieces find_pieces(const Lattice& lattice, const std::vector<mesh::Phase>& 
   return result;
 }
 
-bool separate_pieces(PhasePotentials& potentials, const Winners& winners, state::Phases& phases,
-                     double smallest_volume, std::vector<PhaseChange>& changes) {
+bool separate_pieces(PhasePotentials& potentials, const std::vector<mesh::Phase>& winner,
+                     state::Phases& phases, double smallest_volume, std::vector<PhaseChange>& changes) {
   const Lattice& lattice = potentials.lattice();
   const double h = potentials.h(), cell_volume = h * h * h;
-  const PhasePieces pieces = find_pieces(lattice, winners.phase);
+  const PhasePieces pieces = find_pieces(lattice, winner);
   std::map<mesh::Phase, std::vector<int>> of_phase;
   for (std::size_t n = 0; n < pieces.piece.size(); ++n)
     of_phase[pieces.piece[n].phase].push_back(static_cast<int>(n));
 
-  const PieceDistance distance(lattice, winners.phase);
+  const PieceDistance distance(lattice, winner);
   bool changed = false;
   for (const auto& [phase, members] : of_phase) {
     if (members.size() < 2) continue;
@@ -283,8 +283,8 @@ void settle_new_phases(const mesh::FilmMesh& films, const mesh::Topology& topolo
   }
 }
 
-int suppress_specks(PhasePotentials& potentials, const Winners& winners, const mesh::FilmMesh& films,
-                    const mesh::Topology& topology, double smallest_volume) {
+int suppress_specks(PhasePotentials& potentials, const std::vector<mesh::Phase>& winner,
+                    const mesh::FilmMesh& films, const mesh::Topology& topology, double smallest_volume) {
   const double h = potentials.h();
   const std::vector<ClosedSurface> surfaces = closed_surfaces(films, topology);
   std::map<mesh::Phase, double> largest;
@@ -306,7 +306,7 @@ int suppress_specks(PhasePotentials& potentials, const Winners& winners, const m
     for_each_cell(potentials.lattice().grown(around, 1), [&](int i, int j, int k) {
       const Index3 cell = potentials.lattice().image_in(whole, i, j, k);
       const auto place = field.place(i, j, k);
-      if (winners.phase[whole.offset(cell.i, cell.j, cell.k)] != s.phase && place) field.value[*place] -= h;
+      if (winner[whole.offset(cell.i, cell.j, cell.k)] != s.phase && place) field.value[*place] -= h;
     });
   }
   return n_specks;

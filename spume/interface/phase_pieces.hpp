@@ -42,8 +42,8 @@ PhasePieces find_pieces(const Lattice& lattice, const std::vector<mesh::Phase>& 
 /// there so that neighbours win. With d the distances to the pieces, the new phase has ψ_p − max(0, d_new −
 /// d_old) and the old one ψ_p − max(0, d_old − d_new), both unchanged near their own films. Appends to
 /// `changes`; gives whether there was anything to do, in which case the winners have changed.
-bool separate_pieces(PhasePotentials& potentials, const Winners& winners, state::Phases& phases,
-                     double smallest_volume, std::vector<PhaseChange>& changes);
+bool separate_pieces(PhasePotentials& potentials, const std::vector<mesh::Phase>& winner,
+                     state::Phases& phases, double smallest_volume, std::vector<PhaseChange>& changes);
 
 /// Gives target volumes to the phases born by changes[first …], from the volumes of their smooth films:
 /// pieces of a bubble share its target in proportion to their volumes, pockets get what was measured. Volumes
@@ -55,7 +55,7 @@ void settle_new_phases(const mesh::FilmMesh& films, const mesh::Topology& topolo
 /// surface of a phase beyond its largest one (of the outside: around every closed surface) that encloses less
 /// than `smallest_volume` [m³], where the phase does not win; gives their number. Contour again if it is not
 /// 0.
-int suppress_specks(PhasePotentials& potentials, const Winners& winners, const mesh::FilmMesh& films,
-                    const mesh::Topology& topology, double smallest_volume);
+int suppress_specks(PhasePotentials& potentials, const std::vector<mesh::Phase>& winner,
+                    const mesh::FilmMesh& films, const mesh::Topology& topology, double smallest_volume);
 
 }  // namespace spume::interface

@@ -208,27 +208,33 @@ PhasePotentials potentials_of(const grid::Box& box, std::span<const CellBox> cel
   return potentials;
 }
 
-Winners find_winners(const PhasePotentials& potentials) {
+std::vector<mesh::Phase> find_winners(const PhasePotentials& potentials) {
+  const CellBox whole = all_cells(potentials.box().cells);
+  std::vector<mesh::Phase> winner(whole.size(), 0);
+  std::vector<double> largest(whole.size(), -std::numeric_limits<double>::max());
+  for (const auto& field : potentials.fields())
+    for_each_cell_of_grid(field.cells, potentials.lattice(), [&](std::size_t n, std::size_t cell) {
+      const bool wins = field.value[n] > largest[cell];
+      largest[cell] = wins ? field.value[n] : largest[cell];
+      winner[cell] = wins ? field.phase : winner[cell];
+    });
+  return winner;
+}
+
+std::vector<double> leads_of_winners(const PhasePotentials& potentials) {
   const CellBox whole = all_cells(potentials.box().cells);
   constexpr double none = -std::numeric_limits<double>::max();
   double lowest = 0;
-  Winners w{std::vector<mesh::Phase>(whole.size(), 0), std::vector<double>(whole.size(), none),
-            std::vector<double>(whole.size(), none)};
+  std::vector<double> first(whole.size(), none), second(whole.size(), none);
   for (const auto& field : potentials.fields()) {
     lowest = std::min(lowest, field.beyond);
     for_each_cell_of_grid(field.cells, potentials.lattice(), [&](std::size_t n, std::size_t cell) {
-      const double value = field.value[n];
-      if (value > w.first[cell]) {
-        w.second[cell] = w.first[cell];
-        w.first[cell] = value;
-        w.phase[cell] = field.phase;
-      } else {
-        w.second[cell] = std::max(w.second[cell], value);
-      }
+      second[cell] = std::max(second[cell], std::min(first[cell], field.value[n]));
+      first[cell] = std::max(first[cell], field.value[n]);
     });
   }
-  std::replace(w.second.begin(), w.second.end(), none, lowest);
-  return w;
+  for (std::size_t c = 0; c < first.size(); ++c) first[c] -= second[c] > none ? second[c] : lowest;
+  return first;
 }
 
 }  // namespace spume::interface

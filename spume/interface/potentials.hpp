@@ -78,12 +78,10 @@ class PhasePotentials {
 PhasePotentials potentials_of(const grid::Box& box, std::span<const CellBox> cells,
                               std::span<const std::vector<double>> indicator, double variance, double floor);
 
-/// At every cell: the phase with the largest ψ (the lowest of equals), and the two largest ψ [m]; where there
-/// is but one candidate the second is the lowest `beyond`.
-struct Winners {
-  std::vector<mesh::Phase> phase;
-  std::vector<double> first, second;
-};
-Winners find_winners(const PhasePotentials& potentials);
+/// At every cell the phase with the largest ψ, the lowest of equals.
+std::vector<mesh::Phase> find_winners(const PhasePotentials& potentials);
+/// At every cell how far the largest ψ is above the second [m]; above the lowest `beyond` where there is but
+/// one candidate.
+std::vector<double> leads_of_winners(const PhasePotentials& potentials);
 
 }  // namespace spume::interface

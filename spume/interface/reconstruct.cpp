@@ -47,7 +47,7 @@ std::vector<mesh::Phase> unresolved_bubbles(const PhasePotentials& potentials, c
                                             double smallest_volume) {
   const double h = potentials.h();
   std::vector<double> volume(phases.count(), 0.0);
-  for (mesh::Phase p : find_winners(potentials).phase) volume[p] += h * h * h;
+  for (mesh::Phase p : find_winners(potentials)) volume[p] += h * h * h;
   std::vector<mesh::Phase> unresolved;
   for (mesh::Phase p = 1; p < phases.count(); ++p)
     if (phases.alive(p) && volume[p] < 0.25 * smallest_volume) unresolved.push_back(p);
@@ -85,7 +85,7 @@ mesh::Topology settle(mesh::FilmMesh& films, const state::Phases& phases,
   state::Phases measured = phases;
   if (!parameters.conserve_volumes) measured.target_volume = mesh::phase_volumes(films, phases.count());
   for (int n = 0; n < n_steps; ++n)
-    relax_step(films, topology, measured, parameters.relaxation * h * h / n_steps);
+    relax_step(films, topology, measured, parameters.relaxation * h * h / n_steps, 1);
 
   mesh::RemeshParameters tidying = parameters.remesh;
   tidying.collapse_below = tidying.merge_below;
@@ -122,7 +122,7 @@ Reconstruction extract_films(const grid::Grid& grid, std::shared_ptr<PhasePotent
                              ReconstructReport report) {
   const double h = grid.h(), edge = parameters.smallest_bubble_cells * h,
                smallest_volume = edge * edge * edge;
-  FoundFilms found = find_films(*potentials, phases, smallest_volume, report.changes);
+  FoundFilms found = find_films(grid.communicator(), *potentials, phases, smallest_volume, report.changes);
   mesh::FilmMesh& mesh = found.films;
   report.times.lap("contour");
   report.n_refused_projections = project_vertices(grid.communicator(), *potentials, found.topology, mesh);
@@ -135,7 +135,7 @@ Reconstruction extract_films(const grid::Grid& grid, std::shared_ptr<PhasePotent
   report.times.lap("volumes");
   report.remesh = mesh::remesh(
       mesh, [edge_length = parameters.edge * h](const Vec3&) { return edge_length; },
-      projection_onto(potentials), parameters.remesh);
+      projection_onto(potentials), parameters.remesh, grid.communicator());
   report.times.lap("remesh");
   if (parameters.conserve_volumes)
     report.largest_volume_displacement =

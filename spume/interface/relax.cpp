@@ -154,7 +154,7 @@ RelaxStepReport relax_step(mesh::FilmMesh& films, const state::Phases& phases, d
 }
 
 RelaxStepReport relax_step(mesh::FilmMesh& films, const mesh::Topology& topology, const state::Phases& phases,
-                           double tau) {
+                           double tau, int volume_iterations) {
   RelaxStepReport report{};
   report.area_before = mesh::film_area(films);
   const auto pressure = mesh::film_pressures(films, topology, mesh::area_descent(films), phases.count());
@@ -167,7 +167,7 @@ RelaxStepReport relax_step(mesh::FilmMesh& films, const mesh::Topology& topology
 
   const std::vector<Vec3> before = films.position;
   move_vertices(implicit_step(films, topology, tau), mesh::weighted_volume_gradient(films, pressure), films);
-  mesh::restore_volumes(films, phases.target_volume, 2, std::sqrt(tau));
+  mesh::restore_volumes(films, phases.target_volume, volume_iterations, std::sqrt(tau));
 
   report.largest_displacement = mesh::largest_distance(films.position, before);
   report.area_after = mesh::film_area(films);

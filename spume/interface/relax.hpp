@@ -19,8 +19,9 @@ struct RelaxStepReport {
 /// then volumes restored on the mesh. τ [m²] is the time in units where the film tension over the friction is
 /// one.
 RelaxStepReport relax_step(mesh::FilmMesh& films, const state::Phases& phases, double tau);
-/// The same for films whose topology, which a step keeps, is known.
+/// The same for films whose topology, which a step keeps, is known, with so many iterations of
+/// mesh::restore_volumes().
 RelaxStepReport relax_step(mesh::FilmMesh& films, const mesh::Topology& topology, const state::Phases& phases,
-                           double tau);
+                           double tau, int volume_iterations = 2);
 
 }  // namespace spume::interface

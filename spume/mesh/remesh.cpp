@@ -44,7 +44,7 @@ int count_tiny_edges(const FilmMesh& mesh, const TargetLength& target, double ti
 }  // namespace
 
 RemeshReport remesh(FilmMesh& mesh, const TargetLength& target, const Projection& project,
-                    const RemeshParameters& parameters) {
+                    const RemeshParameters& parameters, const parallel::Communicator& ranks) {
   expects(static_cast<bool>(target) && static_cast<bool>(project),
           "remeshing needs target lengths and a projection");
   const bool splits = parameters.split_above > 0;
@@ -52,7 +52,7 @@ RemeshReport remesh(FilmMesh& mesh, const TargetLength& target, const Projection
           "halves of a split edge must not be short enough to collapse");
 
   RemeshReport report;
-  WorkingMesh work(mesh);
+  WorkingMesh work(mesh, ranks);
   for (int round = 0; round < (splits ? largest_number_of_rounds : 1); ++round) {
     const int n_before = report.n_split + report.n_collapsed;
     if (splits) split_until_short(work, target, project, parameters, report);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "spume/mesh/film_mesh.hpp"
+#include "spume/parallel/communicator.hpp"
 
 namespace spume::mesh {
 
@@ -41,8 +42,10 @@ struct RemeshReport {
 };
 
 /// Remeshes with `target` lengths > 0 everywhere; breaks a contract (std::logic_error) otherwise. Vertices
-/// and triangles are renumbered; the order of those that stay is kept.
+/// and triangles are renumbered; the order of those that stay is kept. Collective: the ranks, which all hold
+/// the mesh, share the work; the result does not depend on their number.
 RemeshReport remesh(FilmMesh& mesh, const TargetLength& target, const Projection& project,
-                    const RemeshParameters& parameters);
+                    const RemeshParameters& parameters,
+                    const parallel::Communicator& ranks = parallel::Communicator::self());
 
 }  // namespace spume::mesh

@@ -85,8 +85,8 @@ std::vector<double> targets_at_vertices(const FilmMesh& mesh, const TargetLength
   return length;
 }
 
-WorkingMesh::WorkingMesh(FilmMesh& film_mesh)
-    : mesh(film_mesh), phases(film_mesh.n_vertices()), held(film_mesh.n_vertices(), 0) {
+WorkingMesh::WorkingMesh(FilmMesh& film_mesh, const parallel::Communicator& sharing)
+    : mesh(film_mesh), ranks(sharing), phases(film_mesh.n_vertices()), held(film_mesh.n_vertices(), 0) {
   for (const FilmTriangle& t : mesh.triangle)
     for (int v : t.vertex) {
       phases[v].insert(t.phase_a);

@@ -7,6 +7,7 @@
 #include "spume/mesh/film_mesh.hpp"
 #include "spume/mesh/remesh.hpp"
 #include "spume/mesh/topology.hpp"
+#include "spume/parallel/communicator.hpp"
 
 namespace spume::mesh {
 
@@ -53,7 +54,9 @@ std::vector<double> targets_at_vertices(const FilmMesh& mesh, const TargetLength
 
 /// A mesh while it is being remeshed, with what every operation must keep up to date.
 struct WorkingMesh {
-  explicit WorkingMesh(FilmMesh& film_mesh);
+  /// The ranks, which all hold the mesh and do the same to it, share the work.
+  explicit WorkingMesh(FilmMesh& film_mesh,
+                       const parallel::Communicator& sharing = parallel::Communicator::self());
 
   /// By the number of phases: precedence is in the order of the enumeration.
   VertexKind kind(int v) const {
@@ -67,6 +70,7 @@ struct WorkingMesh {
   void remove(const std::vector<char>& dead_triangle);
 
   FilmMesh& mesh;
+  parallel::Communicator ranks;
   std::vector<PhaseSet> phases;  ///< that meet at each vertex
   std::vector<char>
       held;  ///< vertices on an edge of a single triangle, where a film ends: they stay as they are

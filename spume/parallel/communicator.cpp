@@ -52,6 +52,19 @@ void Communicator::sum(std::span<double> values) const {
   MPI_Bcast(values.data(), n, MPI_DOUBLE, 0, comm_);
 }
 
+void Communicator::expect_offsets(std::size_t n_values, std::span<const int> offset) const {
+  expects(offset.size() == static_cast<std::size_t>(size_) + 1 && offset.front() == 0 &&
+              n_values == static_cast<std::size_t>(offset.back()),
+          "an offset for each rank and the end of the array");
+}
+
+std::vector<int> Communicator::shares(int n) const {
+  std::vector<int> offset(size_ + 1);
+  for (int rank = 0; rank <= size_; ++rank)
+    offset[rank] = static_cast<int>(static_cast<long>(n) * rank / size_);
+  return offset;
+}
+
 void Communicator::broadcast(std::span<double> values, int root) const {
   MPI_Bcast(values.data(), message_count(values.size()), MPI_DOUBLE, root, comm_);
 }

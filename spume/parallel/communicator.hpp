@@ -13,6 +13,8 @@ namespace spume::parallel {
 class Communicator {
  public:
   static Communicator world() { return Communicator(MPI_COMM_WORLD); }
+  /// This rank alone.
+  static Communicator self() { return Communicator(MPI_COMM_SELF); }
   explicit Communicator(MPI_Comm comm);
 
   int rank() const { return rank_; }
@@ -28,6 +30,16 @@ class Communicator {
   /// Element-wise sum in place. Where all ranks but one hold zero, the result is exact.
   void sum(std::span<double> values) const;
 
+  /// Gives every rank the whole of an array of which each has filled its part, values[offset[rank] …
+  /// offset[rank + 1]), which may be empty; `offset` is the same on every rank, with size() + 1 entries. T is
+  /// sent byte by byte.
+  template <class T>
+  void all_gather(std::span<T> values, std::span<const int> offset) const;
+  /// The parts of all ranks one after another, and where each begins, and the end.
+  template <class T>
+  std::vector<T> joined(std::vector<T> part, std::vector<int>& offset) const;
+  /// Offsets of even shares of n items.
+  std::vector<int> shares(int n) const;
   void broadcast(std::span<double> values, int root = 0) const;
   void broadcast(std::string& text, int root = 0) const;
   void barrier() const;
@@ -48,6 +60,7 @@ class Communicator {
 
  private:
   enum class Failure { None, Input, Numerical, Interruption, Other };
+  void expect_offsets(std::size_t n_values, std::span<const int> offset) const;
   void rethrow_together(Failure failure, std::string message) const;
 
   MPI_Comm comm_;
@@ -56,4 +69,5 @@ class Communicator {
 
 }  // namespace spume::parallel
 
+#include "spume/parallel/communicator_gather.hpp"
 #include "spume/parallel/communicator_together.hpp"

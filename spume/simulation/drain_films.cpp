@@ -62,7 +62,8 @@ void mesh_films(const grid::Grid& grid, const Case& run_case, RunState& run, Wit
   if (run_case.rearrangement.conserve_volumes)
     mesh::restore_volumes(films, run.foam.phases.target_volume, 3, 0.1 * grid.h());
   const mesh::Topology topology = mesh::build_topology(films);
-  replace_films(run_case, grid.h(), std::move(films), topology, update.topology, run.foam, update.transfer);
+  replace_films(grid.communicator(), run_case, grid.h(), std::move(films), topology, update.topology,
+                run.foam, update.transfer);
   const double correction =
       2 * run_case.materials.film.surface_tension * (mesh::film_area(run.foam.films) - old_area);
   witness.step(run, topology, {.correction = correction}, "meshing");

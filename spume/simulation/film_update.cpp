@@ -64,19 +64,20 @@ state::Event describe(double time, const interface::ReconstructReport::PhaseChan
 
 FilmUpdate reconstruct_films(const grid::Grid& grid, const Case& run_case, const mesh::Topology& topology,
                              state::Foam& foam) {
-  return take_over(run_case, grid.h(),
+  return take_over(grid.communicator(), run_case, grid.h(),
                    interface::reconstruct(grid, foam.films, topology, foam.phases, run_case.reconstruct),
                    topology, foam);
 }
 
-FilmUpdate take_over(const Case& run_case, double h, interface::Reconstruction reconstruction,
-                     const mesh::Topology& topology_before, state::Foam& foam) {
+FilmUpdate take_over(const parallel::Communicator& ranks, const Case& run_case, double h,
+                     interface::Reconstruction reconstruction, const mesh::Topology& topology_before,
+                     state::Foam& foam) {
   const double old_area = mesh::film_area(foam.films);
   FilmUpdate update;
   update.reconstruction = std::move(reconstruction.report);
   update.potentials = std::move(reconstruction.potentials);
   update.topology = std::move(reconstruction.topology);
-  replace_films(run_case, h, std::move(reconstruction.films), update.topology, topology_before, foam,
+  replace_films(ranks, run_case, h, std::move(reconstruction.films), update.topology, topology_before, foam,
                 update.transfer);
   update.energy_correction =
       2 * run_case.materials.film.surface_tension * (mesh::film_area(foam.films) - old_area);
@@ -97,10 +98,10 @@ FilmUpdate take_over(const Case& run_case, double h, interface::Reconstruction r
   return update;
 }
 
-void replace_films(const Case& run_case, double h, mesh::FilmMesh films, const mesh::Topology& topology,
-                   const mesh::Topology& topology_before, state::Foam& foam,
+void replace_films(const parallel::Communicator& ranks, const Case& run_case, double h, mesh::FilmMesh films,
+                   const mesh::Topology& topology, const mesh::Topology& topology_before, state::Foam& foam,
                    transport::TransferReport& report) {
-  foam.liquid = transport::transfer(foam.films, topology_before, foam.liquid, films, topology, h,
+  foam.liquid = transport::transfer(ranks, foam.films, topology_before, foam.liquid, films, topology, h,
                                     run_case.transport, report);
   foam.films = std::move(films);
 }

@@ -11,6 +11,7 @@ namespace spume::simulation {
 
 ViimMotion::ViimMotion(const grid::Grid& grid, const Case& run_case, const state::Foam& foam)
     : case_(run_case),
+      ranks_(grid.communicator()),
       h_(grid.h()),
       evolution_(grid,
                  {.epsilon = run_case.rearrangement.epsilon,
@@ -23,7 +24,7 @@ ViimStep ViimMotion::move(state::Foam& foam, const mesh::Topology& topology,
   auto reconstruction = evolution_.move(foam.films, foam.phases, velocity, kernel, dt, case_.reconstruct);
   interface::carry(foam.films, velocity, kernel, dt);
   const double area_carried = mesh::film_area(foam.films);
-  return {area_carried, take_over(case_, h_, std::move(reconstruction), topology, foam)};
+  return {area_carried, take_over(ranks_, case_, h_, std::move(reconstruction), topology, foam)};
 }
 
 }  // namespace spume::simulation

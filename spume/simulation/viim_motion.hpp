@@ -27,6 +27,7 @@ class ViimMotion {
 
  private:
   const Case& case_;
+  parallel::Communicator ranks_;
   double h_;
   viim::FilmEvolution evolution_;
 };

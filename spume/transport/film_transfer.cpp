@@ -60,15 +60,22 @@ struct Footprint {
   std::vector<std::pair<int, int>> same;  ///< old and new lamella
 };
 
-void find_own_pairs(const LiquidMesh& from, const mesh::TriangleLocator& locator, const LiquidMesh& to,
-                    double reach, Footprint& footprint) {
-  for (std::size_t d = 0; d < footprint.point.size(); ++d) {
-    const int lamella = to.lamella_of_dof[d];
-    const auto& own = to.topology.lamella[lamella];
-    footprint.point[d] = locator.closest(to.film_position(static_cast<int>(d)), reach, [&](int t) {
+/// Each rank looks for its share of the dofs.
+void find_own_pairs(const parallel::Communicator& ranks, const LiquidMesh& from,
+                    const mesh::TriangleLocator& locator, const LiquidMesh& to, double reach,
+                    Footprint& footprint) {
+  const int n_dofs = static_cast<int>(footprint.point.size());
+  const std::vector<int> share = ranks.shares(n_dofs);
+  for (int d = share[ranks.rank()]; d < share[ranks.rank() + 1]; ++d) {
+    const auto& own = to.topology.lamella[to.lamella_of_dof[d]];
+    footprint.point[d] = locator.closest(to.film_position(d), reach, [&](int t) {
       const Triangle& triangle = from.films.triangle[t];
       return triangle.phase_a == own.phase_a && triangle.phase_b == own.phase_b;
     });
+  }
+  ranks.all_gather(std::span(footprint.point), share);
+  for (int d = 0; d < n_dofs; ++d) {
+    const int lamella = to.lamella_of_dof[d];
     const int t = footprint.point[d].triangle;
     if (t >= 0 && to.lamella_area[lamella] > 0)
       footprint.same.emplace_back(from.topology.triangle_lamella[t], lamella);
@@ -132,12 +139,13 @@ void report_rescaling(const Links& links, const std::vector<double>& factor, con
 
 }  // namespace
 
-FilmTransfer transfer_films(const LiquidMesh& from, std::span<const double> old_volume, const LiquidMesh& to,
-                            double h, const TransportParameters& parameters, TransferReport& report) {
+FilmTransfer transfer_films(const parallel::Communicator& ranks, const LiquidMesh& from,
+                            std::span<const double> old_volume, const LiquidMesh& to, double h,
+                            const TransportParameters& parameters, TransferReport& report) {
   const mesh::TriangleLocator locator(from.films, h);
   Footprint footprint;
   footprint.point.resize(to.topology.film_dof.size());
-  find_own_pairs(from, locator, to, parameters.reach * h, footprint);
+  find_own_pairs(ranks, from, locator, to, parameters.reach * h, footprint);
   find_renamed(from, locator, to, parameters.reach * h, footprint);
 
   FilmTransfer transfer;

@@ -48,14 +48,15 @@ state::FilmLiquid uniform_liquid(const mesh::FilmMesh& films, const mesh::Topolo
   return liquid;
 }
 
-state::FilmLiquid transfer(const mesh::FilmMesh& from, const mesh::Topology& from_topology,
-                           const state::FilmLiquid& liquid, const mesh::FilmMesh& to,
-                           const mesh::Topology& to_topology, double h, const TransportParameters& parameters,
-                           TransferReport& report) {
+state::FilmLiquid transfer(const parallel::Communicator& ranks, const mesh::FilmMesh& from,
+                           const mesh::Topology& from_topology, const state::FilmLiquid& liquid,
+                           const mesh::FilmMesh& to, const mesh::Topology& to_topology, double h,
+                           const TransportParameters& parameters, TransferReport& report) {
   expect_sizes(from_topology, liquid);
   const LiquidMesh old_mesh = measure_liquid_mesh(from, from_topology, h);
   const LiquidMesh new_mesh = measure_liquid_mesh(to, to_topology, h);
-  FilmTransfer films = transfer_films(old_mesh, liquid.lamella_volume, new_mesh, h, parameters, report);
+  FilmTransfer films =
+      transfer_films(ranks, old_mesh, liquid.lamella_volume, new_mesh, h, parameters, report);
   BorderTransfer borders = transfer_borders(old_mesh, liquid.border_volume, new_mesh, h, parameters);
 
   const NewLiquid volumes{films.volume, borders.volume};

@@ -2,6 +2,7 @@
 
 #include "spume/mesh/film_mesh.hpp"
 #include "spume/mesh/topology.hpp"
+#include "spume/parallel/communicator.hpp"
 #include "spume/state/film_liquid.hpp"
 
 namespace spume::transport {
@@ -34,11 +35,12 @@ state::FilmLiquid uniform_liquid(const mesh::FilmMesh& films, const mesh::Topolo
 /// particles); total() and `sprayed` are kept, total() to round-off; no volume becomes negative. `h` [m]
 /// scales the reaches of the parameters. Phases of the two meshes are the same but for bubbles that split or
 /// vanished: rupture comes before. The report's numbers add to those it has. Throws NumericalError when the
-/// new mesh has no film to hold the liquid.
-state::FilmLiquid transfer(const mesh::FilmMesh& from, const mesh::Topology& from_topology,
-                           const state::FilmLiquid& liquid, const mesh::FilmMesh& to,
-                           const mesh::Topology& to_topology, double h, const TransportParameters& parameters,
-                           TransferReport& report);
+/// new mesh has no film to hold the liquid. Collective: the ranks, which all have both meshes, share the
+/// work.
+state::FilmLiquid transfer(const parallel::Communicator& ranks, const mesh::FilmMesh& from,
+                           const mesh::Topology& from_topology, const state::FilmLiquid& liquid,
+                           const mesh::FilmMesh& to, const mesh::Topology& to_topology, double h,
+                           const TransportParameters& parameters, TransferReport& report);
 
 /// Every step between reconstructions: fills young films (and, while there are any, growing borders) up to
 /// the floor. total() is kept. Gives what was moved [m³].

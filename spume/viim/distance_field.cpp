@@ -65,7 +65,7 @@ DistanceField distance_to(const mesh::FilmMesh& films, const mesh::Topology& top
                           const interface::PhasePotentials& potentials) {
   const grid::Box& box = potentials.box();
   const double far = band_cells * box.spacing();
-  DistanceField field{box, {}, interface::find_winners(potentials).phase};
+  DistanceField field{box, {}, interface::find_winners(potentials)};
   field.distance.assign(field.phase.size(), far);
   for (const auto& p : closest_points(films, box, far))
     field.distance[p.cell] = lies_on_border(films, topology, p)

@@ -66,7 +66,7 @@ bool FilmEvolution::remove_lost_bubbles(const mesh::FilmMesh& films, state::Phas
 /// χ becomes the winners. Where it changes φ turns its sign, so that the signed functions of the two phases
 /// stay what they are. Gives whether φ is nowhere more than half a cell below zero then.
 bool FilmEvolution::relabel(const interface::PhasePotentials& potentials) {
-  const auto winners = interface::find_winners(potentials).phase;
+  const auto winners = interface::find_winners(potentials);
   const double lowest = -0.5 * grid_.h();
   bool agree = true;
   for (std::size_t c = 0; c < winners.size(); ++c) {

@@ -39,8 +39,8 @@ mesh::FilmMesh level_surface(const grid::Box& box, const std::vector<double>& ex
   outside.beyond = -outside.beyond;
   sides.set(std::move(outside));
   sides.set(std::move(inside));
-  mesh::FilmMesh surface =
-      interface::contour(sides, interface::find_winners(sides).phase, interface::Pieces::OfTetrahedra);
+  mesh::FilmMesh surface = interface::contour(
+      parallel::Communicator::self(), sides, interface::find_winners(sides), interface::Pieces::OfTetrahedra);
   for (Vec3& x : surface.position)
     if (const auto projected = sides.project(x, {0, 1})) x = *projected;
   return surface;

@@ -19,7 +19,7 @@ namespace {
 using testing::h;
 
 mesh::FilmMesh contour_of(const PhasePotentials& potentials) {
-  return contour(potentials, find_winners(potentials).phase);
+  return contour(parallel::Communicator::self(), potentials, find_winners(potentials));
 }
 
 TEST(Contour, OfRandomBubblesIsConforming) {

@@ -29,7 +29,7 @@ testing::Potential union_of(std::vector<testing::Ball> balls) {
 PhasePieces separate(PhasePotentials& potentials, state::Phases& phases, std::vector<PhaseChange>& changes) {
   for (int n = 0; n < 4; ++n)
     if (!separate_pieces(potentials, find_winners(potentials), phases, smallest_volume, changes)) break;
-  return find_pieces(potentials.lattice(), find_winners(potentials).phase);
+  return find_pieces(potentials.lattice(), find_winners(potentials));
 }
 
 TEST(PhasePieces, AreLinkedAlongTheEdgesOfTheTetrahedra) {
@@ -52,7 +52,7 @@ TEST(SeparatePieces, GivesALargePieceANewPhase) {
   auto phases = testing::unset_phases(1);
   phases.target_volume[1] = 7e-10;
   std::vector<PhaseChange> changes;
-  const auto found = find_films(potentials, phases, smallest_volume, changes);
+  const auto found = find_films(parallel::Communicator::self(), potentials, phases, smallest_volume, changes);
   ASSERT_EQ(changes.size(), 1u);
   EXPECT_EQ(changes[0].kind, Kind::Split);
   EXPECT_EQ(changes[0].other, 2);
@@ -72,8 +72,8 @@ TEST(SeparatePieces, LeavesFilmsOfBothPiecesWhereTheyWere) {
   auto phases = testing::unset_phases(1);
   std::vector<PhaseChange> changes;
   separate(after, phases, changes);
-  const auto one = contour(before, find_winners(before).phase),
-             two = contour(after, find_winners(after).phase);
+  const auto one = contour(parallel::Communicator::self(), before, find_winners(before)),
+             two = contour(parallel::Communicator::self(), after, find_winners(after));
   ASSERT_EQ(one.n_vertices(), two.n_vertices());
   for (int v = 0; v < one.n_vertices(); ++v) EXPECT_LT(norm(one.position[v] - two.position[v]), 1e-12 * h);
 }
@@ -100,7 +100,7 @@ TEST(SeparatePieces, MakesAPhaseOfAnEnclosedPocketOfTheOutside) {
   auto phases = testing::unset_phases(1);
   phases.target_volume[1] = 1e-9;
   std::vector<PhaseChange> changes;
-  const auto found = find_films(potentials, phases, smallest_volume, changes);
+  const auto found = find_films(parallel::Communicator::self(), potentials, phases, smallest_volume, changes);
   ASSERT_EQ(changes.size(), 1u);
   EXPECT_EQ(changes[0].kind, Kind::Pocket);
   EXPECT_DOUBLE_EQ(phases.target_volume[2], smooth_phase_volumes(found.films, found.topology, 3)[2]);
@@ -116,9 +116,9 @@ TEST(SuppressSpecks, RemovesABitOfAPhaseBetweenLatticePoints) {
   };
   auto potentials = testing::sampled(testing::cube_box(24), foam, 3);
   const auto winners = find_winners(potentials);
-  const auto films = contour(potentials, winners.phase);
+  const auto films = contour(parallel::Communicator::self(), potentials, winners);
   EXPECT_EQ(suppress_specks(potentials, winners, films, mesh::build_topology(films), smallest_volume), 1);
-  const auto clean = contour(potentials, find_winners(potentials).phase);
+  const auto clean = contour(parallel::Communicator::self(), potentials, find_winners(potentials));
   EXPECT_EQ(suppress_specks(potentials, winners, clean, mesh::build_topology(clean), smallest_volume), 0);
 }
 

@@ -195,7 +195,7 @@ TEST(Reconstruct, SplitsADumbbellWhoseNeckIsThinnerThanTheGrid) {
     return p == 1 ? d : -d;
   };
   const auto potentials = testing::sampled(box, dumbbell, 2);
-  const auto films = contour(potentials, find_winners(potentials).phase);
+  const auto films = contour(parallel::Communicator::self(), potentials, find_winners(potentials));
   ASSERT_EQ(n_closed_surfaces(films, 1), 1) << "one bubble to begin with";
   auto phases = testing::unset_phases(1);
   const double volume = mesh::phase_volumes(films, 2)[1];
@@ -224,7 +224,7 @@ TEST(Reconstruct, GivesTheGasOfATinyBubbleToTheNeighbourWithMostCommonFilm) {
     return std::max({two(0, x), two(1, x), two(2, x)}) + 1.4 * h - norm(x - Vec3{0.6 * h, 0.3 * h, 0.2 * h});
   };
   const auto potentials = testing::sampled(box, foam, 4);
-  const auto films = contour(potentials, find_winners(potentials).phase);
+  const auto films = contour(parallel::Communicator::self(), potentials, find_winners(potentials));
   auto phases = testing::unset_phases(3);
   const auto volume = mesh::phase_volumes(films, 4);
   std::copy(volume.begin() + 1, volume.end(), phases.target_volume.begin() + 1);

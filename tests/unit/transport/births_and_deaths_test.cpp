@@ -58,7 +58,8 @@ TEST(BornLamella, GetsTheMeanThicknessOfItsNeighboursFromThem) {
   const state::FilmLiquid liquid = patterns::liquid_of(from, uniform_eta, uniform_lambda);
   transport::TransferReport report;
   const state::FilmLiquid after =
-      transport::transfer(from.films, from.topology, liquid, to.films, to.topology, h, {}, report);
+      transport::transfer(parallel::Communicator::self(), from.films, from.topology, liquid, to.films,
+                          to.topology, h, {}, report);
   EXPECT_LE(ledger_error(liquid, after), 1e-14);
   EXPECT_EQ(report.n_born_lamellae, 1);
   EXPECT_GT(report.to_born, 0);
@@ -84,7 +85,8 @@ TEST(GoneLamella, GivesItsLiquidToBordersNearby) {
   ASSERT_GE(disc, 0);
   transport::TransferReport report;
   const state::FilmLiquid after =
-      transport::transfer(from.films, from.topology, liquid, to.films, to.topology, h, {}, report);
+      transport::transfer(parallel::Communicator::self(), from.films, from.topology, liquid, to.films,
+                          to.topology, h, {}, report);
   EXPECT_LE(ledger_error(liquid, after), 1e-14);
   EXPECT_EQ(report.n_gone_lamellae, 1);
   const double held = patterns::held_by(from, liquid, disc);
@@ -109,7 +111,8 @@ TEST(GoneLamella, FarFromBordersGivesItsLiquidToFilmsAround) {
   const state::FilmLiquid liquid = patterns::liquid_of(from, uniform_eta, uniform_lambda);
   transport::TransferReport report;
   const state::FilmLiquid after =
-      transport::transfer(from.films, from.topology, liquid, to.films, to.topology, h, {}, report);
+      transport::transfer(parallel::Communicator::self(), from.films, from.topology, liquid, to.films,
+                          to.topology, h, {}, report);
   EXPECT_LE(ledger_error(liquid, after), 1e-14);
   EXPECT_EQ(report.n_gone_lamellae, 1);
   EXPECT_NEAR(after.in_borders(), liquid.in_borders(), 1e-12 * liquid.in_borders());
@@ -129,7 +132,8 @@ TEST(RenamedBubble, KeepsTheLiquidOfItsFilmsInPlace) {
   const state::FilmLiquid liquid = patterns::liquid_of(from, eta, lambda);
   transport::TransferReport report;
   const state::FilmLiquid after =
-      transport::transfer(from.films, from.topology, liquid, to.films, to.topology, h, {}, report);
+      transport::transfer(parallel::Communicator::self(), from.films, from.topology, liquid, to.films,
+                          to.topology, h, {}, report);
   EXPECT_LE(ledger_error(liquid, after), 1e-14);
   EXPECT_EQ(report.n_born_lamellae + report.n_gone_lamellae + report.n_born_borders + report.n_gone_borders,
             0);
@@ -149,7 +153,8 @@ TEST(Transfer, OntoAMeshWithoutFilmsIsRefused) {
   const Foam from(shapes::sphere({}, radius, 1, 1)), to{mesh::FilmMesh{}};
   const state::FilmLiquid liquid = patterns::liquid_of(from, uniform_eta, uniform_lambda);
   transport::TransferReport report;
-  EXPECT_THROW(transport::transfer(from.films, from.topology, liquid, to.films, to.topology, h, {}, report),
+  EXPECT_THROW(transport::transfer(parallel::Communicator::self(), from.films, from.topology, liquid,
+                                   to.films, to.topology, h, {}, report),
                NumericalError);
 }
 

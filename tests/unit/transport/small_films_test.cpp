@@ -44,7 +44,8 @@ TEST(SmallLamella, MuchThickerThanItsNeighboursGivesTheExcessToItsBorders) {
   const Foam& foam = start.foam;
   transport::TransferReport report;
   const state::FilmLiquid after =
-      transport::transfer(foam.films, foam.topology, start.liquid, foam.films, foam.topology, h, {}, report);
+      transport::transfer(parallel::Communicator::self(), foam.films, foam.topology, start.liquid, foam.films,
+                          foam.topology, h, {}, report);
   EXPECT_LE(std::abs(after.total() / start.liquid.total() - 1), 1e-14);
   // The others are uniform, so the cap is 2 η0 exactly.
   EXPECT_NEAR(patterns::held_by(foam, after, start.odd), 2 * (2 * eta0) * start.area(),
@@ -67,8 +68,9 @@ TEST(LargeLamella, KeepsItsLiquidHoweverThick) {
   OneOddLamella start(10);
   const Foam& foam = start.foam;
   transport::TransferReport report;
-  const state::FilmLiquid after = transport::transfer(foam.films, foam.topology, start.liquid, foam.films,
-                                                      foam.topology, 0.1 * radius, {}, report);
+  const state::FilmLiquid after =
+      transport::transfer(parallel::Communicator::self(), foam.films, foam.topology, start.liquid, foam.films,
+                          foam.topology, 0.1 * radius, {}, report);
   EXPECT_EQ(report.capped, 0);
   EXPECT_NEAR(patterns::held_by(foam, after, start.odd), patterns::held_by(foam, start.liquid, start.odd),
               1e-12 * start.liquid.total());
@@ -161,7 +163,8 @@ TEST(YoungFlag, LastsWhileTheLamellaIsSmallOrGrows) {
   const auto young_after = [&](const Foam& from, const Foam& to, bool young_before, double scale) {
     liquid.lamella_is_young[0] = young_before;
     transport::TransferReport report;
-    return transport::transfer(from.films, from.topology, liquid, to.films, to.topology, scale, {}, report)
+    return transport::transfer(parallel::Communicator::self(), from.films, from.topology, liquid, to.films,
+                               to.topology, scale, {}, report)
                .lamella_is_young[0] != 0;
   };
   EXPECT_TRUE(young_after(small, grown, true, 0.2 * radius));    // area grown by 10 %

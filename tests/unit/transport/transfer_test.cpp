@@ -50,7 +50,8 @@ SphereResult carry_around(int subdivisions, int n_transfers) {
   for (int n = 0; n < n_transfers; ++n) {
     Foam next = turned_sphere(subdivisions, random);
     transport::TransferReport report;
-    liquid = transport::transfer(foam.films, foam.topology, liquid, next.films, next.topology, h, {}, report);
+    liquid = transport::transfer(parallel::Communicator::self(), foam.films, foam.topology, liquid,
+                                 next.films, next.topology, h, {}, report);
     foam = std::move(next);
     result.worst_ledger = std::max(result.worst_ledger, relative_change(before, liquid.total()));
   }
@@ -82,7 +83,8 @@ TEST(Transfer, ToTheSameMeshChangesNothing) {
   transport::TransferReport report;
   const double h = 0.9 * radius / 6;
   const state::FilmLiquid after =
-      transport::transfer(foam.films, foam.topology, before, foam.films, foam.topology, h, {}, report);
+      transport::transfer(parallel::Communicator::self(), foam.films, foam.topology, before, foam.films,
+                          foam.topology, h, {}, report);
   for (std::size_t d = 0; d < before.lamella_volume.size(); ++d)
     EXPECT_NEAR(after.lamella_volume[d], before.lamella_volume[d], 1e-10 * eta0 * h * h);
   for (std::size_t d = 0; d < before.border_volume.size(); ++d)
@@ -103,8 +105,9 @@ TEST(Transfer, NeverMakesAVolumeNegativeNorLosesLiquidWithRoughData) {
     state::FilmLiquid liquid = patterns::liquid_of(from, rough(eta0), rough(lambda0));
     liquid.sprayed = 0.3 * liquid.total();
     transport::TransferReport report;
-    const state::FilmLiquid after = transport::transfer(from.films, from.topology, liquid, to.films,
-                                                        to.topology, 0.2 * radius, {}, report);
+    const state::FilmLiquid after =
+        transport::transfer(parallel::Communicator::self(), from.films, from.topology, liquid, to.films,
+                            to.topology, 0.2 * radius, {}, report);
     EXPECT_LE(relative_change(liquid.total(), after.total()), 1e-14);
     EXPECT_EQ(after.sprayed, liquid.sprayed);
     EXPECT_GE(*std::min_element(after.lamella_volume.begin(), after.lamella_volume.end()), 0);
@@ -149,8 +152,8 @@ double kept_of_wave(int waves) {
   for (int n = 1; n <= 20; ++n) {
     Foam next = turned_double_bubble(n % 2 == 1 ? 7 : 6, 0.37 * n);
     transport::TransferReport report;
-    liquid = transport::transfer(foam.films, foam.topology, liquid, next.films, next.topology, 0.15 * radius,
-                                 {}, report);
+    liquid = transport::transfer(parallel::Communicator::self(), foam.films, foam.topology, liquid,
+                                 next.films, next.topology, 0.15 * radius, {}, report);
     foam = std::move(next);
   }
   EXPECT_LE(relative_change(in_borders, liquid.in_borders()), 1e-13);
@@ -173,8 +176,9 @@ TEST(Transfer, OfASpikeOnABorderDoesNotOvershoot) {
   const state::FilmLiquid liquid = patterns::liquid_of(
       from, [](const Vec3&) { return eta0; }, spike);
   transport::TransferReport report;
-  const state::FilmLiquid after = transport::transfer(from.films, from.topology, liquid, to.films,
-                                                      to.topology, 0.15 * radius, {}, report);
+  const state::FilmLiquid after =
+      transport::transfer(parallel::Communicator::self(), from.films, from.topology, liquid, to.films,
+                          to.topology, 0.15 * radius, {}, report);
   const std::vector<double> length = mesh::border_dof_lengths(to.films, to.topology);
   double least = lambda0, most = 0;
   for (std::size_t d = 0; d < length.size(); ++d) {
@@ -203,7 +207,8 @@ TEST(Transfer, KeepsSeparateFilmsOfOnePairApart) {
   const state::FilmLiquid liquid = patterns::liquid_of(from, eta, eta);
   transport::TransferReport report;
   const state::FilmLiquid after =
-      transport::transfer(from.films, from.topology, liquid, to.films, to.topology, 0.2 * radius, {}, report);
+      transport::transfer(parallel::Communicator::self(), from.films, from.topology, liquid, to.films,
+                          to.topology, 0.2 * radius, {}, report);
   ASSERT_EQ(to.topology.n_lamellae(), 2);
   for (int l : {0, 1})
     EXPECT_LT(relative_change(patterns::held_by(from, liquid, l), patterns::held_by(to, after, l)), 1e-13);

@@ -49,10 +49,11 @@ TEST(DistanceTo, FilmsOfPolynomialPotentialsIsExact) {
   const auto potentials = ball_potentials(testing::cube_box(13 * h, 26));
   state::Phases phases;
   phases.target_volume = {0, 1};
-  auto films = interface::contour(potentials, interface::find_winners(potentials).phase);
+  auto films =
+      interface::contour(parallel::Communicator::self(), potentials, interface::find_winners(potentials));
   const auto field = distance_to(films, mesh::build_topology(films), potentials);
   EXPECT_LT(largest_error(field, 3), 1e-8 * h);
-  EXPECT_EQ(field.phase, interface::find_winners(potentials).phase);
+  EXPECT_EQ(field.phase, interface::find_winners(potentials));
 }
 
 // Films that are their own distance: ½(ψ_1 − ψ_0) = R − r, whose tricubic is of fourth order.
@@ -66,7 +67,8 @@ TEST(DistanceTo, IsOfFourthOrderForABall) {
       for (std::size_t c = 0; c < field.value.size(); ++c)
         field.value[c] = (p == 1 ? 1 : -1) * (radius - norm(testing::centre_of_cell(box, c) - centre));
     }
-    const auto films = interface::contour(potentials, interface::find_winners(potentials).phase);
+    const auto films =
+        interface::contour(parallel::Communicator::self(), potentials, interface::find_winners(potentials));
     error.push_back(largest_error(distance_to(films, mesh::build_topology(films), potentials), 3));
   }
   const double order = std::log2(error[0] / error[1]);
