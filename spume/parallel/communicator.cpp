@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <limits>
+#include <vector>
 
 #include "spume/base/contract.hpp"
 
@@ -50,6 +51,17 @@ void Communicator::sum(std::span<double> values) const {
   const int n = message_count(values.size());
   MPI_Reduce(is_root() ? MPI_IN_PLACE : values.data(), values.data(), n, MPI_DOUBLE, MPI_SUM, 0, comm_);
   MPI_Bcast(values.data(), n, MPI_DOUBLE, 0, comm_);
+}
+
+void Communicator::all_gather(std::span<double> values, std::span<const int> offset) const {
+  expects(offset.size() == static_cast<std::size_t>(size_) + 1 &&
+              values.size() == static_cast<std::size_t>(offset.back()),
+          "an offset for each rank and the end of the array");
+  if (size_ == 1) return;
+  std::vector<int> count(size_);
+  for (int rank = 0; rank < size_; ++rank) count[rank] = offset[rank + 1] - offset[rank];
+  MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, values.data(), count.data(), offset.data(), MPI_DOUBLE,
+                 comm_);
 }
 
 void Communicator::broadcast(std::span<double> values, int root) const {

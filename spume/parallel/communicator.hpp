@@ -13,6 +13,8 @@ namespace spume::parallel {
 class Communicator {
  public:
   static Communicator world() { return Communicator(MPI_COMM_WORLD); }
+  /// This rank alone.
+  static Communicator self() { return Communicator(MPI_COMM_SELF); }
   explicit Communicator(MPI_Comm comm);
 
   int rank() const { return rank_; }
@@ -28,6 +30,9 @@ class Communicator {
   /// Element-wise sum in place. Where all ranks but one hold zero, the result is exact.
   void sum(std::span<double> values) const;
 
+  /// Gives every rank the whole of an array of which each has filled its part, values[offset[rank] …
+  /// offset[rank + 1]), which may be empty; `offset` is the same on every rank, with size() + 1 entries.
+  void all_gather(std::span<double> values, std::span<const int> offset) const;
   void broadcast(std::span<double> values, int root = 0) const;
   void broadcast(std::string& text, int root = 0) const;
   void barrier() const;

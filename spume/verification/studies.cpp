@@ -39,6 +39,8 @@ const std::vector<Study>& studies() {
       {"quasistatic", "clusters of two to 27 bubbles relaxed without gas",
        "closed-form geometry; an independent minimiser for five bubbles", 65, 10, quasistatic},
       {"crystals", "the foams of Kelvin and of Weaire and Phelan", "Surface Evolver", 65, 20, crystals},
+      {"drainage-cost", "time of the published and of the positive drainage at equal errors",
+       "the paper's schemes", 60, 5, drainage_cost},
       {"lamella-table2", "drainage of a catenoid under gravity", "the paper's Table 2", 70, 5,
        lamella_table2},
       {"bubble-volumes", "volume of every bubble while twenty rearrange", "nothing is lost", 120, 40,
