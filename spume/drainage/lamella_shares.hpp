@@ -8,8 +8,8 @@
 
 namespace spume::drainage {
 
-/// Estimated time of the drainage of a lamella, in proportion: a power of the number of its film dofs, as
-/// measured (bench/drainage.cpp).
+/// Estimated time of a drainage step of a lamella, in proportion: n^1.3 for n film dofs, as measured with
+/// bench/drainage.cpp for assembly, factorisation and solves together.
 double lamella_cost(int n_film_dofs);
 
 /// Ranks of pieces of work: the costliest first, each to the rank that has the least so far; the lowest of

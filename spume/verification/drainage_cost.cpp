@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -54,11 +55,12 @@ std::optional<double> time_at(const std::vector<Cost>& best, double error) {
 }
 
 /// The power of 1/error with which the time grows, over the more accurate half (in the logarithm) of the best
-/// runs.
+/// runs, two or more.
 double growth(const std::vector<Cost>& best) {
   const Cost& last = best.back();
   const double middle = std::sqrt(best.front().error * last.error);
-  const Cost& from = *std::ranges::find_if(best, [&](const Cost& run) { return run.error <= middle; });
+  const auto rough = std::ranges::partition_point(best, [&](const Cost& run) { return run.error >= middle; });
+  const Cost& from = *std::prev(rough);
   return std::log(last.seconds / from.seconds) / std::log(from.error / last.error);
 }
 

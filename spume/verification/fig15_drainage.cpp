@@ -164,7 +164,8 @@ void fig15_drainage(const parallel::Communicator& /*communicator*/, Scale scale,
     const std::string mesh = fmt::format("{:.3g} mm", 1e3 * spacing);
     report.told(mesh + ": triangles", films.n_triangles(), "this mesh");
     auto materials = fig15_materials();
-    judge(mesh + ", on three: ", four_bubble_network(films, radius), materials, {references[level].border_liquid, 0}, report);
+    judge(mesh + ", on three: ", four_bubble_network(films, radius), materials,
+          {references[level].border_liquid, 0}, report);
     materials.gravity = -norm(materials.gravity) * tilted_up;
     judge(mesh + ", one lowest: ", four_bubble_network(films, radius), materials, references[level], report);
   }

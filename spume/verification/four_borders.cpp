@@ -123,7 +123,8 @@ void run_published(int n, double dt, int steps, const Given& initial, const Give
     const double begun = processor_time();
     if (borders.advance(dt, load, lambda))
       throw NumericalError("the published border scheme failed in step " + std::to_string(step));
-    after(step, [&](int b, int i) { return lambda[offset[b] + i]; }, processor_time() - begun);
+    after(
+        step, [&](int b, int i) { return lambda[offset[b] + i]; }, processor_time() - begun);
     borders.project(lambda);
   }
 }
@@ -154,7 +155,8 @@ void run_positive(int n, double dt, int steps, const Given& initial, const Given
     const drainage::Trial& trial = stepper.attempt(drainage::Method::Rosenbrock, dt, &second_gain);
     if (!trial.positive) throw NumericalError("a border ran dry in step " + std::to_string(step));
     y = trial.y;
-    after(step, [&](int b, int i) { return y.border[unknown[b][i]]; }, processor_time() - begun);
+    after(
+        step, [&](int b, int i) { return y.border[unknown[b][i]]; }, processor_time() - begun);
   }
 }
 

@@ -19,8 +19,7 @@ namespace {
 
 using parallel::Communicator;
 
-const state::Materials soap{
-    .gas = {}, .liquid = {1000, 1e-3}, .film = {0.034}, .gravity = {0.5, 2.0, -9.5}};
+const state::Materials soap{.gas = {}, .liquid = {1000, 1e-3}, .film = {0.034}, .gravity = {0.5, 2.0, -9.5}};
 
 /// Six films of different η that meet in a junction.
 state::FilmNetwork corner() {
@@ -81,8 +80,8 @@ TEST(LamellaShares, give_each_lamella_to_one_rank_and_its_values_to_all) {
 void expect_same_bits(state::FilmNetwork alone, const DrainageParameters& parameters, double threshold) {
   state::FilmNetwork together = alone;
   const auto expected = drain(alone, soap, parameters, threshold, testing::thinnest_node, {});
-  const auto outcome = drain(together, soap, parameters, threshold, testing::thinnest_node, {},
-                             Communicator::world());
+  const auto outcome =
+      drain(together, soap, parameters, threshold, testing::thinnest_node, {}, Communicator::world());
   EXPECT_EQ(together.half_thickness, alone.half_thickness);
   EXPECT_EQ(together.border_area, alone.border_area);
   EXPECT_EQ(outcome.elapsed, expected.elapsed);
