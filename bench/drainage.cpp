@@ -1,7 +1,9 @@
 // Drainage of the foam of the paper's Fig. 15 to 16.1 s on meshes of different size, graded to the borders:
 // wall and processor time, steps, and what each part of the steps takes. The accepted steps of one run are
-// repeated part by part for the shares, each from where it started, on the equations of the program. Usage:
-// bench_drainage [--triangles 20000 200000]
+// repeated part by part for the shares, each from where it started, on the equations of the program. On
+// several ranks, processor time and shares are those of the first, waiting included. With --lamellae, the
+// time of single lamellae by their size, from which lamella_cost() has its power. Usage:
+// [mpirun -n 2] bench_drainage [--triangles 20000 200000] [--lamellae]
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
@@ -39,11 +41,7 @@ state::FilmNetwork cluster(int n_triangles) {
       films = verification::refine_around(films, mesh::VertexKind::Border, 4,
                                           verification::four_bubble_middle(radius));
   }
-  auto network = verification::uniform_network(std::move(films), 5e-6, 5e-8);
-  for (std::size_t d = 0; d < network.curvature_squared.size(); ++d)
-    if (network.topology.lamella[network.topology.film_dof[d].lamella].phase_a == 0)
-      network.curvature_squared[d] = 2 / (radius * radius);
-  return network;
+  return verification::four_bubble_network(std::move(films), radius);
 }
 
 struct Step {
@@ -57,6 +55,10 @@ struct Run {
   drainage::DrainageOutcome outcome;
 };
 
+parallel::Communicator world() {
+  return parallel::Communicator::world();
+}
+
 Run drain(state::FilmNetwork network) {
   Run run{};
   std::vector<double> half_thickness = network.half_thickness, border_area = network.border_area;
@@ -69,7 +71,8 @@ Run drain(state::FilmNetwork network) {
         half_thickness = now.half_thickness;
         border_area = now.border_area;
         return true;
-      });
+      },
+      world());
   run.seconds = wall() - start;
   run.processor_seconds = processor_time() - processor_start;
   return run;
@@ -79,7 +82,7 @@ Run drain(state::FilmNetwork network) {
 StageTimes shares(state::FilmNetwork network, const std::vector<Step>& steps) {
   constexpr double gamma = 1 - 1 / std::numbers::sqrt2;
   StageTimes times;
-  drainage::DrainageEquations equations(network, verification::fig15_materials());
+  drainage::DrainageEquations equations(network, verification::fig15_materials(), world());
   times.lap("set-up, orderings");
   drainage::Unknowns y, k1, k2, stage;
   const auto add = [](std::vector<double>& to, double factor, const std::vector<double>& k) {
@@ -114,6 +117,37 @@ StageTimes shares(state::FilmNetwork network, const std::vector<Step>& steps) {
   return times;
 }
 
+/// Assembly, factorisation and two solves of a square film of m × m cells.
+void time_lamellae() {
+  double last_seconds = 0, last_unknowns = 0;
+  for (int m : {12, 17, 24, 34, 48, 68, 96, 136, 192}) {
+    auto network = verification::uniform_network(verification::rectangle(1e-3, 1e-3, m, m), 1e-6, 0);
+    for (std::size_t d = 0; d < network.half_thickness.size(); ++d)
+      network.half_thickness[d] *= 1 + 0.3 * std::sin(0.01 * static_cast<double>(d));
+    drainage::DrainageEquations equations(network, verification::fig15_materials());
+    const drainage::Unknowns y = equations.read(network);
+    drainage::Unknowns k;
+    const double unknowns = static_cast<double>(y.film.size());
+    const int repetitions = std::max(3, static_cast<int>(1e5 / unknowns));
+    const double begun = processor_time();
+    for (int n = 0; n < repetitions; ++n) {
+      equations.rates(y, k);
+      equations.linearise(y);
+      equations.factorise(1);
+      equations.solve(k);
+      equations.rates(y, k);
+      equations.solve(k);
+    }
+    const double seconds = (processor_time() - begun) / repetitions;
+    std::printf("film of %6.0f unknowns: %.3e s a step", unknowns, seconds);
+    if (last_seconds > 0)
+      std::printf(", power %.2f", std::log(seconds / last_seconds) / std::log(unknowns / last_unknowns));
+    std::printf("\n");
+    last_seconds = seconds;
+    last_unknowns = unknowns;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -121,12 +155,27 @@ int main(int argc, char** argv) {
   CLI::App program("Drainage of the foam of Fig. 15", "bench_drainage");
   std::vector<int> triangles{20000, 200000};
   program.add_option("--triangles", triangles, "of the meshes, about");
+  bool lamellae = false;
+  program.add_flag("--lamellae", lamellae, "time single lamellae instead");
   CLI11_PARSE(program, argc, argv);
+  if (lamellae) {
+    time_lamellae();
+    return 0;
+  }
   double last_seconds = 0, last_triangles = 0;
   for (const int n : triangles) {
     const auto network = cluster(n);
     const Run run = drain(network);
+    const StageTimes times = shares(network, run.steps);
+    if (!world().is_root()) continue;
     const double size = network.mesh.n_triangles();
+    const double imbalance = drainage::LamellaShares(network.topology, world()).imbalance();
+    std::printf("%d ranks, %d lamellae; the first to the last of them, unknowns:", world().size(),
+                network.topology.n_lamellae());
+    std::vector<int> unknowns(network.topology.n_lamellae(), 0);
+    for (const auto& dof : network.topology.film_dof) ++unknowns[dof.lamella];
+    for (const int count : unknowns) std::printf(" %d", count);
+    std::printf("; largest share of the work over the mean %.3f\n", imbalance);
     std::printf(
         "%d triangles, %zu unknowns of films: %.2f s of wall, %.2f s of processor time, %d steps and %d "
         "rejected, ledger %.1e\n",
@@ -135,7 +184,6 @@ int main(int argc, char** argv) {
     if (last_seconds > 0)
       std::printf("  growth of processor time with triangles: power %.2f\n",
                   std::log(run.processor_seconds / last_seconds) / std::log(size / last_triangles));
-    const StageTimes times = shares(network, run.steps);
     double sum = 0;
     for (const auto& [part, seconds] : times.seconds()) sum += seconds;
     for (const auto& [part, seconds] : times.seconds())

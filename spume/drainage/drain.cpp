@@ -49,7 +49,8 @@ void check_state(const state::FilmNetwork& network, const DrainageEquations& equ
 }
 
 /// 0.02 of the shortest time in which a border empties the rim of a film, 3μ r²/(ση), λ = (√3 − π/2) r²;
-/// without borders, the time in which some η changes by a fiftieth.
+/// without borders, the time in which some η changes by a fiftieth. `rate` has the lamellae of this rank.
+/// Collective.
 double first_step(const DrainageEquations& equations, const state::Materials& materials, const Unknowns& y,
                   const Unknowns& rate) {
   const double sigma = materials.film.surface_tension, mu = materials.liquid.viscosity;
@@ -60,19 +61,19 @@ double first_step(const DrainageEquations& equations, const state::Materials& ma
   if (equations.sites().empty())
     for (std::size_t d = 0; d < y.film.size(); ++d)
       shortest = std::min(shortest, equations.film_area()[d] * y.film[d] / std::abs(rate.film[d]));
-  return 0.02 * shortest;
+  return 0.02 * equations.shares().communicator().min(shortest);
 }
 
 /// One drainage stage in progress.
 class Stage {
  public:
   Stage(state::FilmNetwork& network, const state::Materials& materials, const DrainageParameters& parameters,
-        double threshold, const ThinnestPoint& thinnest)
+        double threshold, const ThinnestPoint& thinnest, const parallel::Communicator& communicator)
       : network_(network),
         parameters_(parameters),
         threshold_(threshold),
         thinnest_of_(thinnest),
-        equations_(network, materials),
+        equations_(network, materials, communicator),
         stepper_(equations_),
         y_(equations_.read(network)) {
     check_state(network, equations_, y_);
@@ -214,11 +215,11 @@ class Stage {
 
 DrainageOutcome drain(state::FilmNetwork& network, const state::Materials& materials,
                       const DrainageParameters& parameters, double threshold, const ThinnestPoint& thinnest,
-                      const OnStep& on_step) {
+                      const OnStep& on_step, const parallel::Communicator& communicator) {
   check_input(network, materials, parameters);
   if (parameters.scheme == Scheme::Paper)
-    return drain_as_published(network, materials, parameters, threshold, thinnest, on_step);
-  Stage stage(network, materials, parameters, threshold, thinnest);
+    return drain_as_published(network, materials, parameters, threshold, thinnest, on_step, communicator);
+  Stage stage(network, materials, parameters, threshold, thinnest, communicator);
   while (!stage.ruptured() && !stage.over()) {
     stage.advance();
     const bool go_on = !on_step || on_step(stage.progress(), network);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "spume/parallel/communicator.hpp"
 #include "spume/state/film_network.hpp"
 #include "spume/state/materials.hpp"
 #include "spume/state/thin_point.hpp"
@@ -44,8 +45,13 @@ using OnStep = std::function<bool(const DrainageProgress&, const state::FilmNetw
 using ThinnestPoint = std::function<state::ThinPoint(const state::FilmNetwork&)>;
 
 /// Drains the films until some η that the criterion sees falls below `threshold` [m] or the time is up.
+/// The ranks of `communicator` share the work, lamella by lamella; each has the whole network and ends with
+/// the same bits, which do not depend on their number, and calls `thinnest` and `on_step`, which must answer
+/// alike on all of them. Throws InputError for materials or parameters that make no sense, NumericalError
+/// where η or λ is not positive at the start or no step is accepted, on all ranks together. Collective.
 DrainageOutcome drain(state::FilmNetwork& network, const state::Materials& materials,
                       const DrainageParameters& parameters, double threshold, const ThinnestPoint& thinnest,
-                      const OnStep& on_step);
+                      const OnStep& on_step,
+                      const parallel::Communicator& communicator = parallel::Communicator::self());
 
 }  // namespace spume::drainage

@@ -7,23 +7,28 @@
 
 namespace spume::drainage {
 
-DrainageEquations::DrainageEquations(const state::FilmNetwork& network, const state::Materials& materials)
+DrainageEquations::DrainageEquations(const state::FilmNetwork& network, const state::Materials& materials,
+                                     const parallel::Communicator& communicator)
     : materials_(materials),
+      shares_(network.topology, communicator),
       borders_(build_border_network(network, materials.gravity)),
       sites_(suction_sites(network, borders_)),
       film_area_(network.topology.film_dof.size(), 0.0) {
-  for (LamellaDomain& domain : build_lamella_domains(network, materials.gravity, sites_)) {
-    for (int i = 0; i < domain.size(); ++i) film_area_[domain.film_dof[i]] = domain.surface.mass[i];
-    const std::vector<double> zero(domain.size(), 0.0);
-    LamellaJacobian jacobian(domain);
-    fem::SparseLu lu(jacobian.column_offset(), jacobian.row());
-    lamellae_.push_back({std::move(domain), std::move(jacobian), std::move(lu), zero, zero, zero});
-  }
-  build_border_pattern();
+  communicator.together([&] {
+    for (LamellaDomain& domain : build_lamella_domains(network, materials.gravity, sites_, shares_.own())) {
+      for (int i = 0; i < domain.size(); ++i) film_area_[domain.film_dof[i]] = domain.surface.mass[i];
+      const std::vector<double> zero(domain.size(), 0.0);
+      LamellaJacobian jacobian(domain);
+      fem::SparseLu lu(jacobian.column_offset(), jacobian.row());
+      lamellae_.push_back({std::move(domain), std::move(jacobian), std::move(lu), zero, zero, zero});
+    }
+    build_border_pattern();
+  });
+  shares_.exchange(film_area_);
 }
 
 DrainageEquations::DrainageEquations(BorderNetwork borders, const state::Materials& materials)
-    : materials_(materials), borders_(std::move(borders)) {
+    : materials_(materials), shares_({}, parallel::Communicator::self()), borders_(std::move(borders)) {
   build_border_pattern();
 }
 
@@ -53,7 +58,7 @@ void DrainageEquations::gather(const Unknowns& y, LamellaSystem& lamella) const 
 
 void DrainageEquations::rates(const Unknowns& y, Unknowns& rate) {
   evaluate_suction(sites_, y.film, y.border, materials_, suction_);
-  rate.film.resize(y.film.size());
+  rate.film.assign(y.film.size(), 0.0);
   for (LamellaSystem& lamella : lamellae_) {
     gather(y, lamella);
     std::fill(lamella.balance.begin(), lamella.balance.end(), 0.0);
@@ -65,7 +70,6 @@ void DrainageEquations::rates(const Unknowns& y, Unknowns& rate) {
   rate.border.assign(y.border.size(), 0.0);
   add_border_flow(borders_, y.border, materials_, rate.border);
   add_border_source(sites_, suction_.outflow, rate.border);
-  if (forcing_) forcing_(time_, rate);
 }
 
 void DrainageEquations::linearise(const Unknowns& y) {
@@ -78,17 +82,23 @@ void DrainageEquations::linearise(const Unknowns& y) {
   linearise_borders(y);
 }
 
+bool DrainageEquations::factorise_lamella(LamellaSystem& lamella) {
+  const auto jacobian = lamella.jacobian.value();
+  matrix_.resize(jacobian.size());
+  std::transform(jacobian.begin(), jacobian.end(), matrix_.begin(), [s = s_](double j) { return -s * j; });
+  for (int i = 0; i < lamella.domain.size(); ++i)
+    matrix_[lamella.jacobian.diagonal()[i]] += lamella.domain.surface.mass[i];
+  return lamella.lu.factorise(matrix_);
+}
+
 bool DrainageEquations::factorise(double s) {
   s_ = s;
-  for (LamellaSystem& lamella : lamellae_) {
-    const auto jacobian = lamella.jacobian.value();
-    matrix_.resize(jacobian.size());
-    std::transform(jacobian.begin(), jacobian.end(), matrix_.begin(), [s](double j) { return -s * j; });
-    for (int i = 0; i < lamella.domain.size(); ++i)
-      matrix_[lamella.jacobian.diagonal()[i]] += lamella.domain.surface.mass[i];
-    if (!lamella.lu.factorise(matrix_)) return false;
-  }
-  return factorise_borders(s);
+  bool failed = false;
+  shares_.communicator().together([&] {
+    for (LamellaSystem& lamella : lamellae_) failed = failed || !factorise_lamella(lamella);
+    failed = failed || !factorise_borders(s);
+  });
+  return !shares_.communicator().any(failed);
 }
 
 /// Solves for one lamella. What round-off in the factors adds to or takes from its liquid, which can be felt
@@ -114,8 +124,14 @@ void DrainageEquations::solve_lamella(LamellaSystem& lamella, Unknowns& b) const
 }
 
 void DrainageEquations::solve(Unknowns& b) {
-  for (LamellaSystem& lamella : lamellae_) solve_lamella(lamella, b);
-  if (borders_.size() == 0) return;
+  shares_.communicator().together([&] {
+    for (LamellaSystem& lamella : lamellae_) solve_lamella(lamella, b);
+  });
+  shares_.exchange(b.film);
+  if (borders_.size() > 0) solve_borders(b);
+}
+
+void DrainageEquations::solve_borders(Unknowns& b) {
   for (std::size_t n = 0; n < sites_.size(); ++n)
     b.border[sites_[n].border_unknown] += s_ * linearised_suction_.slope[n] * b.film[sites_[n].film_dof];
   const double gained = std::accumulate(b.border.begin(), b.border.end(), 0.0);

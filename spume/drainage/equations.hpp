@@ -1,16 +1,15 @@
 #pragma once
 
 #include <array>
-#include <functional>
-#include <numbers>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "spume/drainage/lamella.hpp"
+#include "spume/drainage/lamella_shares.hpp"
 #include "spume/drainage/plateau_border.hpp"
 #include "spume/drainage/suction.hpp"
 #include "spume/fem/sparse_lu.hpp"
+#include "spume/parallel/communicator.hpp"
 #include "spume/state/film_network.hpp"
 #include "spume/state/materials.hpp"
 
@@ -21,29 +20,22 @@ struct Unknowns {
   std::vector<double> film, border;
 };
 
-/// Liquid that comes from elsewhere at a time [s]: adds to the balances of film dofs and border unknowns
-/// [m³/s], of one face of the films.
-using Forcing = std::function<void(double time, Unknowns& rate)>;
-
-/// When a step of ROS2 from t takes the forcing, in units of Δt after t: γ in Stepper::start() and 1 − γ in
-/// Stepper::attempt(). To the order of the scheme these are the terms F + γ Δt F_t and F(t + Δt) − γ Δt F_t
-/// that it asks for where F depends on time.
-inline constexpr double first_forcing = 1 - 1 / std::numbers::sqrt2, second_forcing = 1 / std::numbers::sqrt2;
-
 /// The coupled drainage equations of a network, M y' = F(y), and their linearisation. M is the diagonal of
 /// lumped areas and lengths. The matrix J drops ∂Q/∂λ in films and borders alike, so that (2, 1)ᵀ J = 0 still
 /// holds: the ledger is kept to round-off, and each lamella has a matrix of its own, with λ lagged in it.
+/// The ranks share the lamellae; all of them must have the same network and make the same calls. A lamella is
+/// treated in the same way wherever that is, so that results have the same bits on any number of ranks.
 class DrainageEquations {
  public:
   /// Throws NumericalError, with the place, where a triangle, film dof or border edge has no size.
-  DrainageEquations(const state::FilmNetwork& network, const state::Materials& materials);
+  /// Collective.
+  DrainageEquations(const state::FilmNetwork& network, const state::Materials& materials,
+                    const parallel::Communicator& communicator = parallel::Communicator::self());
 
-  /// Borders by themselves, without films.
+  /// Borders by themselves, without films, on this rank alone.
   DrainageEquations(BorderNetwork borders, const state::Materials& materials);
 
-  /// Adds a forcing to the rates, taken at the time set last [s]; J does not know it.
-  void force(Forcing forcing) { forcing_ = std::move(forcing); }
-  void set_time(double time) { time_ = time; }
+  const LamellaShares& shares() const { return shares_; }
 
   /// η and λ of the network, in the order of Unknowns, and back.
   Unknowns read(const state::FilmNetwork& network) const;
@@ -57,15 +49,16 @@ class DrainageEquations {
   /// The ledger 2Σ∫η dA + Σ∫λ dℓ [m³].
   double liquid(const Unknowns& y) const;
 
-  /// F(y): film rows m η', border rows m^b λ' [m³/s]. Takes η, λ > 0.
+  /// F(y): film rows m η', border rows m^b λ' [m³/s]. Takes η, λ > 0. Film rows of lamellae of other ranks
+  /// are zero.
   void rates(const Unknowns& y, Unknowns& rate);
 
   /// Evaluates J at y.
   void linearise(const Unknowns& y);
-  /// Factorises M − s J, s [s], of the last linearise(). False if that failed.
+  /// Factorises M − s J, s [s], of the last linearise(). False if that failed on some rank. Collective.
   bool factorise(double s);
   /// Replaces b by the solution of (M − s J) k = b: all lamellae, then the borders with what those films
-  /// lose.
+  /// lose. Takes the film rows of own lamellae, gives all of them to every rank. Collective.
   void solve(Unknowns& b);
 
  private:
@@ -84,18 +77,19 @@ class DrainageEquations {
   };
 
   void gather(const Unknowns& y, LamellaSystem& lamella) const;
+  bool factorise_lamella(LamellaSystem& lamella);
   void solve_lamella(LamellaSystem& lamella, Unknowns& b) const;
+  void solve_borders(Unknowns& b);
   void build_border_pattern();
   void linearise_borders(const Unknowns& y);
   bool factorise_borders(double s);
 
   state::Materials materials_;
-  Forcing forcing_;
-  double time_ = 0;
+  LamellaShares shares_;
   BorderNetwork borders_;
   std::vector<SuctionSite> sites_;
   std::vector<double> film_area_;
-  std::vector<LamellaSystem> lamellae_;
+  std::vector<LamellaSystem> lamellae_;  ///< of this rank
   BorderSystem border_system_;
   Suction suction_;  ///< of the last rates()
   Suction linearised_suction_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace spume::drainage {
 namespace {
@@ -38,21 +39,26 @@ double capillary_speed(const state::Materials& materials) {
 }  // namespace
 
 std::vector<LamellaDomain> build_lamella_domains(const state::FilmNetwork& network, const Vec3& gravity,
-                                                 std::span<const SuctionSite> sites) {
+                                                 std::span<const SuctionSite> sites,
+                                                 const std::vector<int>& lamellae) {
   const auto& topology = network.topology;
-  std::vector<LamellaDomain> lamellae(topology.n_lamellae());
-  const std::vector<int> local = number_locally(network, lamellae);
+  std::vector<LamellaDomain> all(topology.n_lamellae());
+  const std::vector<int> local = number_locally(network, all);
   std::vector<std::vector<std::array<int, 3>>> triangles(topology.n_lamellae());
   for (int t = 0; t < network.mesh.n_triangles(); ++t) {
     const auto& dof = topology.corner_dof[t];
     triangles[topology.triangle_lamella[t]].push_back({local[dof[0]], local[dof[1]], local[dof[2]]});
   }
-  for (int l = 0; l < topology.n_lamellae(); ++l) fill_domain(network, gravity, triangles[l], lamellae[l]);
   for (std::size_t s = 0; s < sites.size(); ++s) {
     const int d = sites[s].film_dof;
-    lamellae[topology.film_dof[d].lamella].rim.push_back({local[d], static_cast<int>(s)});
+    all[topology.film_dof[d].lamella].rim.push_back({local[d], static_cast<int>(s)});
   }
-  return lamellae;
+  std::vector<LamellaDomain> wanted;
+  for (int l : lamellae) {
+    fill_domain(network, gravity, triangles[l], all[l]);
+    wanted.push_back(std::move(all[l]));
+  }
+  return wanted;
 }
 
 EdgeMobility edge_mobility(double a, double b) {

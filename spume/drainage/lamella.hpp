@@ -26,10 +26,11 @@ struct LamellaDomain {
   int size() const { return static_cast<int>(film_dof.size()); }
 };
 
-/// Cuts the network into its lamellae.
-/// Throws NumericalError, with the place, where a triangle or a film dof has no area.
+/// Cuts the lamellae of the given numbers, increasing, out of the network.
+/// Throws NumericalError, with the place, where a triangle or a film dof of theirs has no area.
 std::vector<LamellaDomain> build_lamella_domains(const state::FilmNetwork& network, const Vec3& gravity,
-                                                 std::span<const SuctionSite> sites);
+                                                 std::span<const SuctionSite> sites,
+                                                 const std::vector<int>& lamellae);
 
 /// Mobility of the edge between half-thicknesses a and b: 2a²b²/(a + b) [m³], which is a³ for a = b and
 /// vanishes with either. A mean of a³ and b³ would let a node lose liquid to a still thinner neighbour until

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
 #include "spume/base/error.hpp"
 #include "spume/drainage/constants.hpp"
+#include "spume/drainage/lamella_shares.hpp"
 #include "spume/drainage/paper_border.hpp"
 #include "spume/drainage/paper_lamella.hpp"
 #include "spume/drainage/place.hpp"
@@ -26,7 +28,9 @@ struct NumberedLamella {
   LamellaSurface surface;
 };
 
-std::vector<NumberedLamella> cut_into_lamellae(const state::FilmNetwork& network, const Vec3& gravity) {
+/// The lamellae of the given numbers.
+std::vector<NumberedLamella> cut_into_lamellae(const state::FilmNetwork& network, const Vec3& gravity,
+                                               const std::vector<int>& wanted) {
   const auto& topology = network.topology;
   std::vector<NumberedLamella> lamellae(topology.n_lamellae());
   std::vector<int> node;
@@ -45,7 +49,9 @@ std::vector<NumberedLamella> cut_into_lamellae(const state::FilmNetwork& network
     lamellae[topology.triangle_lamella[t]].surface.triangle.push_back(
         {node[dof[0]], node[dof[1]], node[dof[2]]});
   }
-  return lamellae;
+  std::vector<NumberedLamella> cut;
+  for (int l : wanted) cut.push_back(std::move(lamellae[l]));
+  return cut;
 }
 
 /// At a junction the scheme knows ends of borders alone, each with two edges to take differences along.
@@ -110,17 +116,21 @@ struct Contact {
 /// The paper's iteration (Sec. 3.3) on a network.
 class PaperStage {
  public:
-  PaperStage(state::FilmNetwork& network, const state::Materials& materials)
+  PaperStage(state::FilmNetwork& network, const state::Materials& materials,
+             const parallel::Communicator& communicator)
       : network_(network),
         materials_(materials),
+        shares_(network.topology, communicator),
         borders_(follow_borders(network, materials.gravity), materials),
         lambda_(borders_.n_nodes()),
         border_load_(borders_.n_nodes()),
         film_load_(network.half_thickness.size()) {
-    for (NumberedLamella& lamella : cut_into_lamellae(network, materials.gravity)) {
-      film_dof_.push_back(std::move(lamella.film_dof));
-      lamella_.emplace_back(std::move(lamella.surface), materials);
-    }
+    communicator.together([&] {
+      for (NumberedLamella& lamella : cut_into_lamellae(network, materials.gravity, shares_.own())) {
+        film_dof_.push_back(std::move(lamella.film_dof));
+        lamella_.emplace_back(std::move(lamella.surface), materials);
+      }
+    });
     for (int b = 0; b < network.topology.n_borders(); ++b) {
       const auto& chain = network.topology.border[b].vertices;
       for (int i = 0; i < borders_.curves().curve[b].n_nodes(); ++i) vertex_.push_back(chain[i]);
@@ -130,43 +140,48 @@ class PaperStage {
     for (std::size_t n = 0; n < vertex_.size(); ++n) lambda_[n] = network_.border_area[vertex_[n]];
   }
 
-  /// Of the network [m³]: what is handed back, not what the stage took apart.
+  /// Of the network [m³]: what is handed back, not what the stage took apart. Collective.
   double liquid() const {
     std::vector<double> lambda;
     for (int v : vertex_) lambda.push_back(network_.border_area[v]);
-    double sum = borders_.liquid(lambda);
+    std::vector<double> of_lamella(network_.topology.n_lamellae(), 0.0);
     std::vector<double> eta;
     for (std::size_t l = 0; l < lamella_.size(); ++l) {
       gather(network_.half_thickness, l, eta);
-      sum += 2 * lamella_[l].liquid(eta);
+      of_lamella[shares_.own()[l]] = 2 * lamella_[l].liquid(eta);
     }
-    return sum;
+    shares_.communicator().sum(of_lamella);  // exact: one rank has each
+    return std::accumulate(of_lamella.begin(), of_lamella.end(), borders_.liquid(lambda));
   }
 
   /// What drain_as_published() says, without max_step; infinite if nothing limits the step.
   double step_limit();
 
-  /// One step from `elapsed` [s]; changes the network.
+  /// One step from `elapsed` [s]; changes the network. Collective.
   void advance(double elapsed, double dt) {
     integrate_suction();
-    for (std::size_t l = 0; l < lamella_.size(); ++l) {
-      gather(network_.half_thickness, l, eta_);
-      gather(film_load_, l, load_);
-      if (!lamella_[l].advance(dt, load_, eta_))
-        fail(
-            elapsed, dt,
-            "the equations of a film could not be solved, or η grows without bound: " + describe_thickest(l));
-      for (std::size_t i = 0; i < eta_.size(); ++i) {
-        if (!(eta_[i] > 0)) fail(elapsed, dt, describe_film_dof(network_, film_dof_[l][i], eta_[i]));
-        network_.half_thickness[film_dof_[l][i]] = eta_[i];
-      }
-    }
+    shares_.communicator().together([&] {
+      for (std::size_t l = 0; l < lamella_.size(); ++l) advance_lamella(l, elapsed, dt);
+    });
+    shares_.exchange(network_.half_thickness);
     if (const auto fault = borders_.advance(dt, border_load_, lambda_)) fail(elapsed, dt, describe(*fault));
     borders_.project(lambda_);
     for (std::size_t n = 0; n < vertex_.size(); ++n) network_.border_area[vertex_[n]] = lambda_[n];
   }
 
  private:
+  void advance_lamella(std::size_t l, double elapsed, double dt) {
+    gather(network_.half_thickness, l, eta_);
+    gather(film_load_, l, load_);
+    if (!lamella_[l].advance(dt, load_, eta_))
+      fail(elapsed, dt,
+           "the equations of a film could not be solved, or η grows without bound: " + describe_thickest(l));
+    for (std::size_t i = 0; i < eta_.size(); ++i) {
+      if (!(eta_[i] > 0)) fail(elapsed, dt, describe_film_dof(network_, film_dof_[l][i], eta_[i]));
+      network_.half_thickness[film_dof_[l][i]] = eta_[i];
+    }
+  }
+
   void find_contacts();
   void check_start() const;
   void integrate_suction();
@@ -201,8 +216,9 @@ class PaperStage {
 
   state::FilmNetwork& network_;
   const state::Materials materials_;
-  std::vector<PaperLamella> lamella_;
-  std::vector<std::vector<int>> film_dof_;  ///< of the nodes of each lamella
+  LamellaShares shares_;
+  std::vector<PaperLamella> lamella_;       ///< of this rank
+  std::vector<std::vector<int>> film_dof_;  ///< of the nodes of each of them
   PaperBorders borders_;
   std::vector<int> vertex_;  ///< of each node of the borders
   std::vector<Contact> contact_;
@@ -284,8 +300,9 @@ double PaperStage::step_limit() {
 
 DrainageOutcome drain_as_published(state::FilmNetwork& network, const state::Materials& materials,
                                    const DrainageParameters& parameters, double threshold,
-                                   const ThinnestPoint& thinnest, const OnStep& on_step) {
-  PaperStage stage(network, materials);
+                                   const ThinnestPoint& thinnest, const OnStep& on_step,
+                                   const parallel::Communicator& communicator) {
+  PaperStage stage(network, materials, communicator);
   const double step = std::min(stage.step_limit(), parameters.max_step);
   const double initial_liquid = stage.liquid();
   DrainageOutcome outcome{Ending::Drained, 0, thinnest(network), 0, 0, 0};

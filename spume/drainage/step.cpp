@@ -26,30 +26,37 @@ int first_not_positive(std::span<const double> values) {
 
 }  // namespace
 
-void Stepper::start(const Unknowns& y) {
+void Stepper::start(const Unknowns& y, const Unknowns* gain) {
   start_ = y;
-  equations_.rates(start_, initial_rates_);
+  evaluate_rates(start_, gain, initial_rates_);
   equations_.linearise(start_);
 }
 
-const Trial& Stepper::attempt(Method method, double dt) {
+void Stepper::evaluate_rates(const Unknowns& y, const Unknowns* gain, Unknowns& rate) {
+  equations_.rates(y, rate);
+  if (gain == nullptr) return;
+  for (std::size_t i = 0; i < gain->film.size(); ++i) rate.film[i] += gain->film[i];
+  for (std::size_t i = 0; i < gain->border.size(); ++i) rate.border[i] += gain->border[i];
+}
+
+const Trial& Stepper::attempt(Method method, double dt, const Unknowns* gain) {
   trial_.positive = false;
   trial_.worst = {};
   if (method == Method::Rosenbrock)
-    rosenbrock(dt);
+    rosenbrock(dt, gain);
   else
-    euler(dt);
+    euler(dt, gain);
   return trial_;
 }
 
-void Stepper::rosenbrock(double dt) {
+void Stepper::rosenbrock(double dt, const Unknowns* gain) {
   constexpr double gamma = 1 - 1 / std::numbers::sqrt2;
   if (!equations_.factorise(gamma * dt)) return;
   k1_ = initial_rates_;
   equations_.solve(k1_);
   combine(dt, 1, 0, stage_);
   if (!check_positive(stage_)) return;
-  equations_.rates(stage_, k2_);
+  evaluate_rates(stage_, gain, k2_);
   subtract_mass(equations_.film_area(), 2, k1_.film, k2_.film);
   subtract_mass(equations_.border_length(), 2, k1_.border, k2_.border);
   equations_.solve(k2_);
@@ -59,13 +66,13 @@ void Stepper::rosenbrock(double dt) {
   measure_error(0.5 * dt, 1);
 }
 
-void Stepper::euler(double dt) {
+void Stepper::euler(double dt, const Unknowns* gain) {
   if (!equations_.factorise(dt)) return;
   k1_ = initial_rates_;
   equations_.solve(k1_);
   combine(dt, 1, 0, trial_.y);
   if (!check_positive(trial_.y)) return;
-  equations_.rates(trial_.y, k2_);
+  evaluate_rates(trial_.y, gain, k2_);
   subtract_mass(equations_.film_area(), 1, k1_.film, k2_.film);
   subtract_mass(equations_.border_length(), 1, k1_.border, k2_.border);
   equations_.solve(k2_);

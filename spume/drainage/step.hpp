@@ -1,5 +1,7 @@
 #pragma once
 
+#include <numbers>
+
 #include "spume/drainage/equations.hpp"
 
 namespace spume::drainage {
@@ -8,6 +10,11 @@ enum class Method {
   Rosenbrock,  ///< ROS2, second order, L-stable
   Euler,       ///< linearly implicit Euler, first order; keeps η and λ positive where ROS2 may not
 };
+
+/// When a step of ROS2 from t takes liquid that comes from elsewhere, in units of Δt after t: γ in
+/// Stepper::start() and 1 − γ in Stepper::attempt(). To the order of the scheme these are the terms
+/// F + γ Δt F_t and F(t + Δt) − γ Δt F_t that it asks for where F depends on time.
+inline constexpr double first_gain = 1 - 1 / std::numbers::sqrt2, second_gain = 1 / std::numbers::sqrt2;
 
 /// Where a step did worst: one film dof or one border unknown, the other −1.
 struct WorstUnknown {
@@ -27,22 +34,25 @@ struct Trial {
 ///                        y⁺ = y + Δt (3k₁ + k₂)/2,  error Δt |k₁ + k₂|/2
 ///   Euler:               (M − Δt J) k = F(y),  y⁺ = y + Δt k,  error from (M − Δt J) e = (Δt/2)(F(y⁺) − M k)
 /// ROS2 is second order for any J (Verwer, Spee, Blom, Hundsdorfer, SIAM J. Sci. Comput. 20, 1999), hence
-/// also for the J without ∂Q/∂λ. Liquid is kept to round-off in each step.
+/// also for the J without ∂Q/∂λ. Liquid is kept to round-off in each step. Collective over the ranks of the
+/// equations: all of them have the same numbers and come to the same decisions.
 class Stepper {
  public:
   explicit Stepper(DrainageEquations& equations) : equations_(equations) {}
 
-  /// Starts from y, with all η, λ > 0.
-  void start(const Unknowns& y);
-  /// Tries one step of dt [s].
-  const Trial& attempt(Method method, double dt);
+  /// Starts from y, with all η, λ > 0. `gain`, if any, adds to the balances of film dofs (of one face) and
+  /// border unknowns what comes from elsewhere [m³/s].
+  void start(const Unknowns& y, const Unknowns* gain = nullptr);
+  /// Tries one step of dt [s], with that gain later in the step.
+  const Trial& attempt(Method method, double dt, const Unknowns* gain = nullptr);
 
-  /// F of the state started from [m³/s].
+  /// F of the state started from [m³/s]; film rows of the lamellae of this rank.
   const Unknowns& initial_rates() const { return initial_rates_; }
 
  private:
-  void rosenbrock(double dt);
-  void euler(double dt);
+  void rosenbrock(double dt, const Unknowns* gain);
+  void euler(double dt, const Unknowns* gain);
+  void evaluate_rates(const Unknowns& y, const Unknowns* gain, Unknowns& rate);
   /// to = start + dt (c₁ k₁ + c₂ k₂)
   void combine(double dt, double c1, double c2, Unknowns& to) const;
   bool check_positive(const Unknowns& y);

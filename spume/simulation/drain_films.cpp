@@ -127,7 +127,7 @@ std::optional<Weakest> drain_films(const grid::Grid& grid, const Case& run_case,
     return !witness.stop_wanted();
   };
   const auto outcome = drainage::drain(network, run_case.materials, parameters, run_case.rupture.threshold,
-                                       criterion, on_step);
+                                       criterion, on_step, grid.communicator());
   if (outcome.ending == drainage::Ending::Stopped)
     throw Interrupted("stopped while the films drained; the run resumes from the start of this drainage");
 

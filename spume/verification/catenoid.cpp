@@ -9,6 +9,7 @@
 #include "spume/base/contract.hpp"
 #include "spume/base/error.hpp"
 #include "spume/base/random.hpp"
+#include "spume/base/stage_times.hpp"
 #include "spume/drainage/equations.hpp"
 #include "spume/drainage/step.hpp"
 #include "spume/fem/triangle_matrices.hpp"
@@ -221,26 +222,32 @@ LamellaRun published_lamella_run(const Catenoid& mesh, drainage::LamellaSurface 
       add_source(mesh, t, SourceRule::Interpolated, load);
       subtract_flux(mesh, t, load);
     }
+    const double begun = processor_time();
     if (!lamella->advance(dt, load, eta)) throw NumericalError("the published lamella scheme blew up");
+    return processor_time() - begun;
   };
 }
 
 LamellaRun positive_lamella_run(const Catenoid& mesh, const state::Materials& materials,
                                 std::optional<SourceRule> driven) {
   const auto equations = std::make_shared<drainage::DrainageEquations>(mesh.network, materials);
-  if (driven)
-    equations->force([&mesh, rule = *driven](double t, drainage::Unknowns& rate) {
-      add_source(mesh, t, rule, rate.film);
-      subtract_flux(mesh, t, rate.film);
-    });
   const auto stepper = std::make_shared<drainage::Stepper>(*equations);
-  return [equations, stepper](double t, double dt, std::vector<double>& eta) {
-    equations->set_time(t + drainage::first_forcing * dt);
-    stepper->start({eta, {}});
-    equations->set_time(t + drainage::second_forcing * dt);
-    const drainage::Trial& trial = stepper->attempt(drainage::Method::Rosenbrock, dt);
+  const auto gain_at = [&mesh, driven](double t) {
+    drainage::Unknowns gain{std::vector<double>(mesh.parameter.size(), 0.0), {}};
+    if (!driven) return gain;
+    add_source(mesh, t, *driven, gain.film);
+    subtract_flux(mesh, t, gain.film);
+    return gain;
+  };
+  return [equations, stepper, gain_at](double t, double dt, std::vector<double>& eta) {
+    const drainage::Unknowns first = gain_at(t + drainage::first_gain * dt),
+                             second = gain_at(t + drainage::second_gain * dt);
+    const double begun = processor_time();
+    stepper->start({eta, {}}, &first);
+    const drainage::Trial& trial = stepper->attempt(drainage::Method::Rosenbrock, dt, &second);
     if (!trial.positive) throw NumericalError("the film ran dry on the catenoid");
     eta = trial.y.film;
+    return processor_time() - begun;
   };
 }
 
@@ -248,7 +255,7 @@ LamellaError lamella_error(const Catenoid& mesh, const LamellaRun& run, double e
   std::vector<double> eta = exact_eta(mesh, 0);
   LamellaError most;
   for (int step = 1; step <= steps; ++step) {
-    run(end * (step - 1) / steps, end / steps, eta);
+    most.seconds += run(end * (step - 1) / steps, end / steps, eta);
     std::vector<double> error = exact_eta(mesh, end * step / steps);
     for (std::size_t d = 0; d < eta.size(); ++d) error[d] -= eta[d];
     measure(mesh, error, most);

@@ -53,10 +53,12 @@ CatenoidSolution catenoid_solution(double u, double v, double t);
 /// Largest nodal error and largest norm ‖·‖₂ of the piecewise linear error over all times.
 struct LamellaError {
   double largest = 0, norm = 0;
+  double seconds = 0;  ///< processor time of the steps, without their source [s]
 };
 
-/// A way to advance η on a catenoid from t by dt.
-using LamellaRun = std::function<void(double t, double dt, std::vector<double>& eta)>;
+/// A way to advance η on a catenoid from t by dt; tells the processor time that took, without that of the
+/// source, which is the problem's and not the scheme's [s].
+using LamellaRun = std::function<double(double t, double dt, std::vector<double>& eta)>;
 /// How a source enters the equations: as the paper has it, piecewise linear between its nodal values, or
 /// integrated to fifth order, which leaves the error of the scheme alone.
 enum class SourceRule { Interpolated, Integrated };

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "spume/base/error.hpp"
+#include "spume/base/stage_times.hpp"
 #include "spume/drainage/constants.hpp"
 #include "spume/drainage/step.hpp"
 #include "spume/fem/triangle_matrices.hpp"
@@ -97,8 +98,9 @@ std::vector<std::vector<double>> sample(int n, const NodeValue& value) {
   return all;
 }
 
-/// Fields at the end of each step: its number and the nodal values.
-using AfterStep = std::function<void(int step, const NodeValue&)>;
+/// Fields at the end of each step: its number and the nodal values; and the processor time of the step
+/// without its source [s].
+using AfterStep = std::function<void(int step, const NodeValue&, double seconds)>;
 /// S or λ(t = 0) on border b at arc length l and time t.
 using Given = std::function<double(int b, double l, double t)>;
 
@@ -118,9 +120,11 @@ void run_published(int n, double dt, int steps, const Given& initial, const Give
       fill(source, (step - 1) * dt, s);
       borders.integrate(s, load);
     }
+    const double begun = processor_time();
     if (borders.advance(dt, load, lambda))
       throw NumericalError("the published border scheme failed in step " + std::to_string(step));
-    after(step, [&](int b, int i) { return lambda[offset[b] + i]; });
+    after(
+        step, [&](int b, int i) { return lambda[offset[b] + i]; }, processor_time() - begun);
     borders.project(lambda);
   }
 }
@@ -133,23 +137,26 @@ void run_positive(int n, double dt, int steps, const Given& initial, const Given
   drainage::Unknowns y{{}, std::vector<double>(equations.border_length().size())};
   for (int b = 0; b < n_borders; ++b)
     for (int i = 0; i <= n; ++i) y.border[unknown[b][i]] = initial(b, i * border_length(b) / n, 0);
-  if (source)
-    equations.force([&](double t, drainage::Unknowns& rate) {
-      for (int b = 0; b < n_borders; ++b)
-        for (int i = 0; i <= n; ++i) {
-          const double h = border_length(b) / n;
-          rate.border[unknown[b][i]] += (i == 0 || i == n ? 0.5 : 1.0) * h * source(b, i * h, t);
-        }
-    });
+  drainage::Unknowns first_gain, second_gain;
+  const auto integrate_source = [&](double t, drainage::Unknowns& gain) {
+    gain.border.assign(y.border.size(), 0.0);
+    for (int b = 0; b < n_borders && source; ++b)
+      for (int i = 0; i <= n; ++i) {
+        const double h = border_length(b) / n;
+        gain.border[unknown[b][i]] += (i == 0 || i == n ? 0.5 : 1.0) * h * source(b, i * h, t);
+      }
+  };
   drainage::Stepper stepper(equations);
   for (int step = 1; step <= steps; ++step) {
-    equations.set_time((step - 1 + drainage::first_forcing) * dt);
-    stepper.start(y);
-    equations.set_time((step - 1 + drainage::second_forcing) * dt);
-    const drainage::Trial& trial = stepper.attempt(drainage::Method::Rosenbrock, dt);
+    integrate_source((step - 1 + drainage::first_gain) * dt, first_gain);
+    integrate_source((step - 1 + drainage::second_gain) * dt, second_gain);
+    const double begun = processor_time();
+    stepper.start(y, &first_gain);
+    const drainage::Trial& trial = stepper.attempt(drainage::Method::Rosenbrock, dt, &second_gain);
     if (!trial.positive) throw NumericalError("a border ran dry in step " + std::to_string(step));
     y = trial.y;
-    after(step, [&](int b, int i) { return y.border[unknown[b][i]]; });
+    after(
+        step, [&](int b, int i) { return y.border[unknown[b][i]]; }, processor_time() - begun);
   }
 }
 
@@ -159,7 +166,10 @@ BorderError error_of(Run& run, int n, int steps) {
   BorderError most;
   const double dt = 1.0 / steps;
   run(n, dt, steps, exact_border_area, exact_border_source,
-      [&](int step, const NodeValue& value) { measure_all(n, step * dt, value, most); });
+      [&](int step, const NodeValue& value, double seconds) {
+        measure_all(n, step * dt, value, most);
+        most.seconds += seconds;
+      });
   return most;
 }
 
@@ -168,7 +178,7 @@ BorderHistory history_of(Run& run, int n, int steps) {
   BorderHistory history;
   run(
       n, 10.0 / steps, steps, [](int, double, double) { return 1.0; }, {},
-      [&](int step, const NodeValue& value) {
+      [&](int step, const NodeValue& value, double) {
         if (step % (steps / n_samples) == 0) history.push_back(sample(n, value));
       });
   return history;
@@ -242,7 +252,7 @@ BorderError positive_border_error(int n, int steps) {
 std::vector<std::vector<double>> positive_border_end(int n, int steps) {
   std::vector<std::vector<double>> end;
   run_positive(n, 1.0 / steps, steps, exact_border_area, exact_border_source,
-               [&](int step, const NodeValue& value) {
+               [&](int step, const NodeValue& value, double) {
                  if (step == steps) end = sample(n, value);
                });
   return end;

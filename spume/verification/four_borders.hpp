@@ -34,6 +34,7 @@ double exact_border_source(int b, double l, double t);
 /// Largest nodal error and largest norm ‖·‖₂ of the piecewise linear error of a border, over all times.
 struct BorderError {
   double largest = 0, norm = 0;
+  double seconds = 0;  ///< processor time of the steps, without their source [s]
 };
 
 /// Table 3: error over 0 ≤ t ≤ 1 of the published scheme; before the projection at the junctions, which is

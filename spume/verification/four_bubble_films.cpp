@@ -209,4 +209,12 @@ Middle four_bubble_middle(double radius) {
   };
 }
 
+state::FilmNetwork four_bubble_network(mesh::FilmMesh films, double radius) {
+  auto network = uniform_network(std::move(films), 5e-6, 5e-8);
+  for (std::size_t d = 0; d < network.curvature_squared.size(); ++d)
+    if (network.topology.lamella[network.topology.film_dof[d].lamella].phase_a == 0)
+      network.curvature_squared[d] = 2 / (radius * radius);
+  return network;
+}
+
 }  // namespace spume::verification

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "spume/mesh/film_mesh.hpp"
+#include "spume/state/film_network.hpp"
 #include "spume/verification/refine_films.hpp"
 
 namespace spume::verification {
@@ -13,5 +14,9 @@ mesh::FilmMesh four_bubble_films(double radius, double spacing);
 
 /// Puts middles of edges of these films onto their planes, spheres and circles.
 Middle four_bubble_middle(double radius);
+
+/// The foam of the paper's Fig. 15 on such films: half-thickness 5 μm, borders of 0.05 mm², k of spheres
+/// outside and of planes inside.
+state::FilmNetwork four_bubble_network(mesh::FilmMesh films, double radius);
 
 }  // namespace spume::verification

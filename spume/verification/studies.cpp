@@ -41,6 +41,8 @@ const std::vector<Study>& studies() {
       {"crystals", "the foams of Kelvin and of Weaire and Phelan", "Surface Evolver", 65, 20, crystals},
       {"lamella-table2", "drainage of a catenoid under gravity", "the paper's Table 2", 70, 5,
        lamella_table2},
+      {"drainage-cost", "time of the published and of the positive drainage at equal errors",
+       "the paper's schemes", 110, 5, drainage_cost},
       {"bubble-volumes", "volume of every bubble while twenty rearrange", "nothing is lost", 120, 40,
        bubble_volumes},
       {"lamella-table1", "drainage of a catenoid with a known solution", "the paper's Table 1; closed form",

@@ -36,6 +36,7 @@ StudyRun film_rim;
 StudyRun film_corner;
 StudyRun fig15_drainage;
 StudyRun film_meshes;
+StudyRun drainage_cost;
 StudyRun border_table3;
 StudyRun border_table4;
 StudyRun lamella_table1;

@@ -30,7 +30,7 @@ std::vector<double> rates(const LamellaDomain& lamella, const std::vector<double
 double decay_rate(int n) {
   const double side = 1e-3, eta0 = 5e-6, amplitude = 1e-6;
   const auto network = testing::square_film(side, n, eta0);
-  const auto lamella = build_lamella_domains(network, {}, {}).front();
+  const auto lamella = build_lamella_domains(network, {}, {}, {0}).front();
   std::vector<double> eta, mode;
   for (const Vec3& x : network.mesh.position) {
     mode.push_back(std::cos(std::numbers::pi * x.x / side) * std::cos(std::numbers::pi * x.y / side));
@@ -55,7 +55,7 @@ TEST(LamellaFlow, damps_a_mode_of_a_flat_film_at_sigma_eta_cubed_k4_over_3_mu_to
 
 TEST(LamellaFlow, leaves_a_uniform_film_on_a_sphere_at_rest_without_gravity) {
   const auto network = testing::single_bubble(1e-3, 3, 5e-6);
-  const auto lamella = build_lamella_domains(network, {}, {}).front();
+  const auto lamella = build_lamella_domains(network, {}, {}, {0}).front();
   // What one unit of round-off in w would drive through an edge.
   const double scale = 0.034 / 3e-3 * 2e6 * 5e-6 * std::pow(5e-6, 3);
   for (double r : rates(lamella, network.half_thickness, soap)) EXPECT_NEAR(r, 0, 1e-14 * scale);
@@ -66,7 +66,7 @@ TEST(LamellaFlow, leaves_any_film_of_constant_potential_at_rest) {
   auto network = testing::single_bubble(1e-3, 3, 5e-6);
   for (std::size_t d = 0; d < network.half_thickness.size(); ++d)
     network.half_thickness[d] *= 1 + 0.2 * std::sin(1e4 * network.mesh.position[d].x);
-  auto lamella = build_lamella_domains(network, soap.gravity, {}).front();
+  auto lamella = build_lamella_domains(network, soap.gravity, {}, {0}).front();
   const auto& eta = network.half_thickness;
   std::vector<double> potential(eta.size());
   lamella_potential(lamella, eta, soap, potential);
@@ -97,7 +97,7 @@ class LamellaJacobianOnACorner : public ::testing::Test {
     }
     borders_ = build_border_network(network_, soap.gravity);
     sites_ = suction_sites(network_, borders_);
-    lamella_ = build_lamella_domains(network_, soap.gravity, sites_).front();
+    lamella_ = build_lamella_domains(network_, soap.gravity, sites_, {0}).front();
     for (int d : lamella_.film_dof) eta_.push_back(network_.half_thickness[d]);
   }
   Suction suction_at(const std::vector<double>& eta) const {
@@ -161,9 +161,9 @@ TEST_F(LamellaJacobianOnACorner, has_columns_that_sum_to_half_of_the_suction_slo
 TEST(LamellaDomains, say_where_a_film_has_no_area) {
   auto network = testing::square_film(1e-3, 2, 1e-6);
   for (Vec3& x : network.mesh.position) x.y = 0.125;
-  EXPECT_THROW(build_lamella_domains(network, {}, {}), NumericalError);
+  EXPECT_THROW(build_lamella_domains(network, {}, {}, {0}), NumericalError);
   try {
-    build_lamella_domains(network, {}, {});
+    build_lamella_domains(network, {}, {}, {0});
   } catch (const NumericalError& error) {
     EXPECT_NE(std::string(error.what()).find("0.125"), std::string::npos) << error.what();
   }

@@ -91,23 +91,7 @@ state::FilmNetwork double_bubble(double radius, const std::vector<double>& rings
 
 state::FilmNetwork three_strips(const std::vector<double>& distances, double length, double eta,
                                 double lambda) {
-  mesh::FilmMesh mesh;
-  mesh.position = {{0, 0, 0}, {0, 0, length}};
-  for (int film = 0; film < 3; ++film) {
-    const double angle = 2 * std::numbers::pi * film / 3;
-    std::array<int, 2> near = {0, 1};
-    for (std::size_t n = 1; n < distances.size(); ++n) {
-      const Vec3 foot = {distances[n] * std::cos(angle), distances[n] * std::sin(angle), 0};
-      const std::array<int, 2> far = {mesh.n_vertices(), mesh.n_vertices() + 1};
-      mesh.position.push_back(foot);
-      mesh.position.push_back(foot + Vec3{0, 0, length});
-      const mesh::Phase clockwise = 1 + (film + 2) % 3, counter_clockwise = 1 + film;
-      mesh.triangle.push_back(mesh::make_triangle(near[0], near[1], far[0], clockwise, counter_clockwise));
-      mesh.triangle.push_back(mesh::make_triangle(near[1], far[1], far[0], clockwise, counter_clockwise));
-      near = far;
-    }
-  }
-  return make_network(std::move(mesh), eta, lambda);
+  return make_network(verification::three_strips(distances, std::array{0.0, length}), eta, lambda);
 }
 
 state::FilmNetwork tetrahedral_corner(const std::vector<double>& distances, double eta, double lambda) {

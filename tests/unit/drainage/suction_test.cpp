@@ -54,7 +54,9 @@ TEST(SuctionSites, give_to_the_borders_what_they_take_from_the_films) {
   evaluate_suction(sites, network.half_thickness, std::vector<double>(borders.size(), 1e-8), soap(), result);
   std::vector<double> inflow(borders.size(), 0.0), film_rate(network.half_thickness.size(), 0.0);
   add_border_source(sites, result.outflow, inflow);
-  for (const LamellaDomain& lamella : build_lamella_domains(network, {}, sites)) {
+  std::vector<int> all(network.topology.n_lamellae());
+  std::iota(all.begin(), all.end(), 0);
+  for (const LamellaDomain& lamella : build_lamella_domains(network, {}, sites, all)) {
     std::vector<double> rate(lamella.size(), 0.0);
     add_boundary_outflow(lamella, result.outflow, rate);
     for (int i = 0; i < lamella.size(); ++i) film_rate[lamella.film_dof[i]] += rate[i];

@@ -5,6 +5,7 @@
 #include <array>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "spume/base/error.hpp"
 
@@ -49,6 +50,22 @@ TEST(Communicator, SumOfArraysIsExactWhereOneRankIsNonzero) {
     if (m % world.size() == world.rank()) values[m] = 0.1 * (m + 1);
   world.sum(values);
   for (int m = 0; m < 7; ++m) EXPECT_EQ(values[m], 0.1 * (m + 1));
+}
+
+TEST(Communicator, GathersPartsOfAnyLengthOnEveryRank) {
+  const Communicator world = Communicator::world();
+  std::vector<int> offset{0};  // rank r has r numbers: the first none
+  for (int r = 0; r < world.size(); ++r) offset.push_back(offset.back() + r);
+  std::vector<double> values(offset.back(), -1.0);
+  for (int n = offset[world.rank()]; n < offset[world.rank() + 1]; ++n) values[n] = 0.1 * n;
+  world.all_gather(std::span(values), offset);
+  for (int n = 0; n < offset.back(); ++n) EXPECT_EQ(values[n], 0.1 * n);
+}
+
+TEST(Communicator, OfOneRankReducesNothing) {
+  const Communicator self = Communicator::self();
+  EXPECT_EQ(self.size(), 1);
+  EXPECT_EQ(self.max(Communicator::world().rank()), Communicator::world().rank());
 }
 
 TEST(Communicator, BroadcastsNumbersAndTextOfAnyLength) {
