@@ -58,11 +58,12 @@ RemeshReport remesh(FilmMesh& mesh, const TargetLength& target, const Projection
     if (splits) split_until_short(work, target, project, parameters, report);
     report.n_collapsed += collapse_short_edges(work, target, parameters);
     if (parameters.merge_below > 0) merge_and_collapse(work, target, parameters, report);
-    report.n_flipped += flip_edges(work);
+    EdgeFlipper flipper(work);
+    report.n_flipped += flipper.run();
     if (round > 0 && report.n_split + report.n_collapsed == n_before) break;
     for (int sweep = 0; sweep < parameters.smoothing_sweeps; ++sweep) {
       smooth(work, project);
-      report.n_flipped += flip_edges(work);
+      report.n_flipped += flipper.run();
     }
   }
   report.n_left_short = count_tiny_edges(mesh, target, parameters.tiny);
