@@ -39,8 +39,8 @@ double inverse_laplace(Transform&& transform, double t) {
   for (int k = 0; k < n; ++k) {
     const double angle = (2 * k + 1 - n) * pi / n, x = 0.6407 * angle;
     const Complex z = static_cast<double>(n) * Complex{0.5017 * angle / std::tan(x) - 0.6122, 0.2645 * angle};
-    const Complex slope =
-        static_cast<double>(n) * Complex{0.5017 / std::tan(x) - 0.5017 * x / std::pow(std::sin(x), 2), 0.2645};
+    const Complex slope = static_cast<double>(n) *
+                          Complex{0.5017 / std::tan(x) - 0.5017 * x / std::pow(std::sin(x), 2), 0.2645};
     sum += std::exp(z) * transform(z / t) * slope;
   }
   return (sum / Complex{0, n * t}).real();

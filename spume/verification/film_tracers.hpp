@@ -10,8 +10,8 @@ namespace spume::verification {
 
 /// A material point of a film with the area around it.
 struct FilmTracer {
-  mesh::Phase phase_a, phase_b;  ///< of its film
-  Vec3 position;                 ///< [m]
+  mesh::Phase phase_a, phase_b;   ///< of its film
+  Vec3 position;                  ///< [m]
   std::array<Vec3, 2> direction;  ///< orthonormal, in the plane of the material surface
   double area;                    ///< that it stood for at the start [m²]
   double stretch = 1;             ///< dA/dA0 since the start
