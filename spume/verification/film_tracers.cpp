@@ -1,46 +1,51 @@
 #include "spume/verification/film_tracers.hpp"
 
-#include <cmath>
-
 #include "spume/grid/kernel_coupling.hpp"
+#include "spume/mesh/locate.hpp"
 
 namespace spume::verification {
 
-FilmTracers::FilmTracers(const mesh::FilmMesh& films, double separation) : separation_(separation) {
+FilmTracers::FilmTracers(const mesh::FilmMesh& films) {
+  constexpr int n = 4;  // parts of each side; a triangle is cut into n² alike
   for (int t = 0; t < films.n_triangles(); ++t) {
     const auto corner = films.corners(t);
-    const Vec3 normal = mesh::doubled_area_normal(films, t);
-    const double doubled = norm(normal);
-    if (!(doubled > 0)) continue;
-    const Vec3 along = normalized(corner[1] - corner[0]);
-    tracers_.push_back({.phase_a = films.triangle[t].phase_a,
-                        .phase_b = films.triangle[t].phase_b,
-                        .position = (corner[0] + corner[1] + corner[2]) / 3,
-                        .direction = {along, cross(normal / doubled, along)},
-                        .area = 0.5 * doubled});
+    const Film film{films.triangle[t].phase_a, films.triangle[t].phase_b,
+                    mesh::triangle_area(films, t) / (n * n)};
+    const auto add = [&](double i, double j) {
+      position_.push_back(corner[0] + i / n * (corner[1] - corner[0]) + j / n * (corner[2] - corner[0]));
+      film_.push_back(film);
+    };
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n - i; ++j) {
+        add(i + 1.0 / 3, j + 1.0 / 3);
+        if (i + j < n - 1) add(i + 2.0 / 3, j + 2.0 / 3);
+      }
   }
 }
 
 void FilmTracers::move(const grid::VectorField& velocity_on_faces, double dt) {
   const grid::KernelCoupling kernel{.placement = grid::Placement::Faces};
-  std::vector<Vec3> start, middle, u;
-  for (const FilmTracer& tracer : tracers_)
-    for (const Vec3& offset : {Vec3{}, tracer.direction[0], tracer.direction[1]})
-      start.push_back(tracer.position + separation_ * offset);
-  kernel.sample(velocity_on_faces, start, u);
-  for (std::size_t p = 0; p < start.size(); ++p) middle.push_back(start[p] + 0.5 * dt * u[p]);
-  kernel.sample(velocity_on_faces, middle, u);
-  for (std::size_t n = 0; n < tracers_.size(); ++n) {
-    FilmTracer& tracer = tracers_[n];
-    tracer.position += dt * u[3 * n];
-    // Differences of velocities, not of places: these would lose digits.
-    const Vec3 a = tracer.direction[0] + dt / separation_ * (u[3 * n + 1] - u[3 * n]);
-    const Vec3 b = tracer.direction[1] + dt / separation_ * (u[3 * n + 2] - u[3 * n]);
-    const Vec3 normal = cross(a, b);
-    tracer.stretch *= norm(normal);
-    tracer.direction[0] = normalized(a);
-    tracer.direction[1] = cross(normalized(normal), tracer.direction[0]);
+  kernel.sample(velocity_on_faces, position_, velocity_);
+  middle_ = position_;
+  for (std::size_t p = 0; p < middle_.size(); ++p) middle_[p] += 0.5 * dt * velocity_[p];
+  kernel.sample(velocity_on_faces, middle_, velocity_);
+  for (std::size_t p = 0; p < middle_.size(); ++p) position_[p] += dt * velocity_[p];
+}
+
+std::vector<double> FilmTracers::area_at_dofs(const transport::LiquidMesh& mesh, double bin_size) const {
+  const mesh::TriangleLocator locator(mesh.films, bin_size);
+  std::vector<double> area(mesh.topology.film_dof.size(), 0.0);
+  for (std::size_t p = 0; p < position_.size(); ++p) {
+    const Film& film = film_[p];
+    const auto found = locator.closest(position_[p], 2 * bin_size, [&](int t) {
+      const auto& triangle = mesh.films.triangle[t];
+      return triangle.phase_a == film.phase_a && triangle.phase_b == film.phase_b;
+    });
+    if (found.triangle < 0) continue;
+    for (int c = 0; c < 3; ++c)
+      area[mesh.topology.corner_dof[found.triangle][c]] += found.weight[c] * film.area;
   }
+  return area;
 }
 
 }  // namespace spume::verification
