@@ -82,4 +82,13 @@ double BubbleWave::stretch(double t) const {
       t);
 }
 
+double BubbleWave::response(double t) const {
+  return inverse_laplace(
+      [this](Complex s) {
+        const Complex x = std::sqrt(s * viscous_time_), p = bessel_product(n_, x);
+        return (1.0 - n_ - (n_ + 2.0) * p + mixed_bessel_product(n_, x)) / (s * (1.0 - p));
+      },
+      t);
+}
+
 }  // namespace spume::verification

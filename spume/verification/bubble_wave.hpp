@@ -21,6 +21,9 @@ class BubbleWave {
   double amplitude(double t) const;
   /// e(t) R/a0. The same.
   double stretch(double t) const;
+  /// e R at a time t > 0 after the amplitude has been changed by one at once, whatever moved it: e R = ∫
+  /// response(t − τ) da(τ), of the transform (1 − n − (n+2) P + X)/(s (1 − P)). 3/2 at first.
+  double response(double t) const;
 
  private:
   int n_;

@@ -89,5 +89,20 @@ TEST(BubbleWave, AgreesWithFiniteDifferencesOfTheRadialProblem) {
     }
 }
 
+TEST(BubbleWave, StretchesAsItsOwnMotionAsks) {
+  const BubbleWave wave(2, 1, {1, 0.05, 1});
+  const int n = 200;
+  const double t = 2.5, dt = t / n;
+  double sum = 0, before = 1;
+  for (int i = 1; i <= n; ++i) {
+    const double now = wave.amplitude(i * dt);
+    sum += wave.response(t - (i - 0.5) * dt) * (now - before);
+    before = now;
+  }
+  // The mid-point rule, of order 3/2 where the response starts like sqrt(t).
+  EXPECT_NEAR(sum, wave.stretch(t), 1e-3);
+  EXPECT_NEAR(wave.response(1e-6), 1.5, 1e-2);
+}
+
 }  // namespace
 }  // namespace spume::verification
