@@ -43,7 +43,7 @@ const std::vector<Study>& studies() {
        lamella_table2},
       {"liquid-transport",
        "liquid rides along with films: a bubble's mode, foams at rest, a cluster that moves",
-       "exact linear flow; material points", 90, 15, liquid_transport},
+       "exact linear flow; material points", 120, 27, liquid_transport},
       {"bubble-volumes", "volume of every bubble while twenty rearrange", "nothing is lost", 120, 40,
        bubble_volumes},
       {"lamella-table1", "drainage of a catenoid with a known solution", "the paper's Table 1; closed form",
