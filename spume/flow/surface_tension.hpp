@@ -13,11 +13,15 @@ namespace spume::flow {
 
 /// Film forces as the gas feels them.
 struct FilmForces {
-  std::vector<Vec3> on_vertex;   ///< what is left after the pressure part is taken out [N]
+  std::vector<Vec3> on_vertex;   ///< what is left to move the films [N]
   std::vector<double> pressure;  ///< P_i of each phase, relative to the outside [Pa]
 };
 
-/// F_v = −2σ ∂A/∂x_v (every film once), less its pure-pressure part Σ_i P_i ∂V_i/∂x_v.
+/// F_v = −2σ ∂A/∂x_v (every film once), less its pure-pressure part Σ_i P_i ∂V_i/∂x_v, and of that what is
+/// normal to the film or, on a border, to the border. The tension is the same everywhere: no smooth film
+/// pulls along itself. What ∂A/∂x_v has along it comes of the triangles, and would make the gas gather the
+/// films' liquid around some vertices at any resolution; see docs/decisions/0003. Each connected piece of
+/// the films has a sum of forces of zero, to round-off.
 FilmForces film_forces(const mesh::FilmMesh& films, const mesh::Topology& topology, int n_phases,
                        double surface_tension);
 

@@ -40,6 +40,8 @@ class FoamMotion {
   FilmUpdate reconstruct();
   /// Of the present films.
   const mesh::Topology& topology() const { return topology_; }
+  /// The velocity, on faces and sharpened, that moved the films in the last step.
+  const grid::VectorField& film_velocity() const { return film_velocity_; }
 
   /// Processor time of the stages of all steps; "gas" is the whole of gas_times().
   const StageTimes& times() const { return times_; }

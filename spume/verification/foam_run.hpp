@@ -48,6 +48,8 @@ class FoamRun {
   const grid::Grid& grid() const { return grid_; }
   state::Foam& foam() { return run_.foam; }
   const mesh::Topology& topology();
+  /// The velocity, on faces, that moved the films in the last step; sampled by grid::KernelCoupling.
+  const grid::VectorField& film_velocity() { return motion().film_velocity(); }
 
   /// Gas and films until `time` [s] since the start; `after_step` sees every step and stops the run by false.
   /// Collective.

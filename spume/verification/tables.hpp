@@ -41,5 +41,6 @@ StudyRun border_table3;
 StudyRun border_table4;
 StudyRun lamella_table1;
 StudyRun lamella_table2;
+StudyRun liquid_transport;
 
 }  // namespace spume::verification

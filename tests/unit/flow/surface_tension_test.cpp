@@ -81,6 +81,37 @@ TEST(SurfaceTension, TwoEqualBubblesInEquilibriumHaveThePressureOfTheirCapsAndLi
   EXPECT_LT(left[1], 0.03);
 }
 
+/// Σ of what the forces on vertices inside films have along the film, and on borders along the border [N].
+double sliding(const mesh::FilmMesh& films, const mesh::Topology& topology, std::span<const Vec3> force) {
+  std::vector<Vec3> normal(force.size()), along(force.size());
+  for (int t = 0; t < films.n_triangles(); ++t)
+    for (int v : films.triangle[t].vertex) normal[v] += mesh::doubled_area_normal(films, t);
+  for (const auto& edge : topology.border_edge) {
+    const Vec3 direction = normalized(films.edge(edge.vertex[0], edge.vertex[1]));
+    for (int v : edge.vertex) along[v] += dot(along[v], direction) < 0 ? -direction : direction;
+  }
+  double sum = 0;
+  for (std::size_t v = 0; v < force.size(); ++v) {
+    const Vec3 n = normalized(normal[v]), t = normalized(along[v]);
+    if (topology.vertex_kind[v] == mesh::VertexKind::Film) sum += norm(force[v] - dot(force[v], n) * n);
+    if (topology.vertex_kind[v] == mesh::VertexKind::Border) sum += std::abs(dot(force[v], t));
+  }
+  return sum;
+}
+
+TEST(SurfaceTension, DoesNotPullAlongFilmsOrBorders) {
+  mesh::FilmMesh films = shapes::double_bubble(radius, 8);
+  for (Vec3& x : films.position) x.y *= 0.8 + 0.1 * std::sin(2000 * x.x);
+  const mesh::Topology topology = mesh::build_topology(films);
+  const flow::FilmForces forces = flow::film_forces(films, topology, 3, sigma);
+  std::vector<Vec3> pull = mesh::area_descent(films),
+                    of_pressure = mesh::weighted_volume_gradient(films, forces.pressure);
+  for (std::size_t v = 0; v < pull.size(); ++v) pull[v] = 2 * sigma * pull[v] + of_pressure[v];
+  ASSERT_GT(sliding(films, topology, pull), 0.01 * magnitude(pull));
+  // What balances the sum of the forces, spread over all vertices, is left.
+  EXPECT_LT(sliding(films, topology, forces.on_vertex), 0.1 * sliding(films, topology, pull));
+}
+
 TEST(SurfaceTension, FilmsPullThemselvesNowhere) {
   mesh::FilmMesh films = shapes::sphere(centre, radius, 3, 1);
   for (Vec3& x : films.position) x = {x.x, 0.8 * x.y, x.z + 0.1 * std::sin(3000 * x.x) * radius};
