@@ -96,4 +96,10 @@ MeshingReport improve(mesh::FilmMesh& films, const mesh::Projection& project, do
   return report;
 }
 
+int follow_films(mesh::FilmMesh& films, const mesh::Projection& project) {
+  mesh::WorkingMesh work(films);
+  StarMesh star_mesh(work);
+  return project_vertices(star_mesh, project, least_angle);
+}
+
 }  // namespace spume::meshing
