@@ -52,7 +52,7 @@ int move_vertices(StarMesh& m, const mesh::Projection& project, std::span<const 
     for (int halving = 0; halving <= most_halvings; ++halving, step *= 0.5) {
       const auto there = project(start + step, m.work.phases[v]);
       if (!there || around.at(*there) > limit) continue;
-      m.films.position[v] = *there;
+      m.move(v, *there);
       ++n_moved;
       break;
     }
@@ -93,7 +93,7 @@ int project_vertices(StarMesh& m, const mesh::Projection& project, double least_
     const auto there = belonging(m, project, v);
     const StarBadness around(m, v);
     if (there && around.at(*there) <= std::max(around.at(m.films.position[v]), acceptable))
-      m.films.position[v] = *there;
+      m.move(v, *there);
     else
       ++n_off;
   }
