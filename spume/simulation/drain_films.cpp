@@ -51,10 +51,10 @@ void mesh_films(const grid::Grid& grid, const Case& run_case, RunState& run, Wit
         fmt::format("{} steps without gas before drainage: smallest angle of its mesh {:.3g} degrees, "
                     "before {:.3g}",
                     mesh.n_relaxation_steps, quality.smallest_angle_degrees, mesh.first_smallest_angle));
-  if (quality.smallest_angle_degrees < run_case.meshing.smallest_angle_degrees || quality.n_inverted > 0)
+  if (quality.smallest_angle_degrees < run_case.meshing.smallest_angle_degrees || mesh.n_turned > 0)
     witness.event(run, "poor mesh",
-                  fmt::format("smallest angle {:.3g} degrees; {} inverted triangles",
-                              quality.smallest_angle_degrees, quality.n_inverted));
+                  fmt::format("smallest angle {:.3g} degrees; {} turned triangles",
+                              quality.smallest_angle_degrees, mesh.n_turned));
 }
 
 std::optional<Weakest> weakest_of(const mesh::Topology& topology, const state::ThinPoint& point) {

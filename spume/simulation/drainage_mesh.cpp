@@ -12,6 +12,7 @@
 #include "spume/interface/volume_constants.hpp"
 #include "spume/mesh/measure.hpp"
 #include "spume/mesh/volume_constraint.hpp"
+#include "spume/meshing/figures.hpp"
 #include "spume/simulation/equilibrate.hpp"
 
 namespace spume::simulation {
@@ -84,10 +85,17 @@ void mesh_once(const grid::Grid& grid, const Case& run_case, state::Foam& foam,
   result.report = meshing::improve(result.films, result.project, grid.h(), parameters);
   if (fits) {
     fit_volumes(grid.h(), *potentials, result.project, foam.phases, result.films, result.report.n_off);
-    result.report.after = mesh::measure_quality(result.films, mesh::build_topology(result.films));
     result.largest_shift = largest_shift(*update.potentials, *potentials, update.topology);
   }
+  const mesh::Topology topology = mesh::build_topology(result.films);
+  result.report.after = mesh::measure_quality(result.films, topology);
+  result.n_turned = meshing::count_turned(result.films, topology);
   result.seconds += processor_time() - start;
+}
+
+bool is_good(const DrainageMesh& mesh, const Case& run_case) {
+  return mesh.report.after.smallest_angle_degrees >= run_case.meshing.smallest_angle_degrees &&
+         mesh.n_turned == 0;
 }
 
 }  // namespace
@@ -98,7 +106,7 @@ DrainageMesh mesh_for_drainage(const grid::Grid& grid, const Case& run_case, sta
   mesh_once(grid, run_case, foam, events, result);
   result.first_smallest_angle = result.report.after.smallest_angle_degrees;
   for (int time = 0; run_case.rearrangement.conserve_volumes && time < most_times; ++time) {
-    if (result.report.after.smallest_angle_degrees >= run_case.meshing.smallest_angle_degrees) break;
+    if (is_good(result, run_case)) break;
     int n_steps = 0;
     equilibrate(grid, run_case, foam, events,
                 [&](const auto&, const auto&) { return ++n_steps < steps_at_once; });

@@ -13,6 +13,7 @@ struct DrainageMesh {
   mesh::FilmMesh films;
   mesh::Projection project;         ///< onto the films that its vertices lie on
   meshing::MeshingReport report;    ///< of the mesh that was kept
+  int n_turned = 0;                 ///< triangles, see meshing/figures.hpp
   FilmUpdate update;                ///< of the last reconstruction
   double largest_shift = 0;         ///< of films for the volumes of their bubbles [m]
   double seconds = 0;               ///< processor time for meshing, without reconstructions and relaxation
