@@ -10,26 +10,6 @@ namespace spume::meshing {
 
 namespace {
 
-/// Triangles turned against one beside them in the same lamella, or against the mean around their corners.
-int count_turned(const mesh::FilmMesh& films, const mesh::Topology& topology) {
-  const std::vector<Vec3> around = mesh::film_dof_normals(films, topology);
-  std::vector<char> turned(films.n_triangles(), 0);
-  for (int t = 0; t < films.n_triangles(); ++t) {
-    Vec3 mean;
-    for (int dof : topology.corner_dof[t]) mean += around[dof];
-    turned[t] = dot(mesh::doubled_area_normal(films, t), mean) <= 0;
-  }
-  const mesh::EdgeTable edges = mesh::build_edges(films);
-  for (const mesh::MeshEdge& e : edges.edge) {
-    if (e.n_uses != 2) continue;
-    const int left = edges.use[e.first_use].triangle, right = edges.use[e.first_use + 1].triangle;
-    if (topology.triangle_lamella[left] != topology.triangle_lamella[right]) continue;
-    if (dot(mesh::doubled_area_normal(films, left), mesh::doubled_area_normal(films, right)) <= 0)
-      turned[left] = turned[right] = 1;
-  }
-  return static_cast<int>(std::count(turned.begin(), turned.end(), 1));
-}
-
 void measure_shapes(const mesh::FilmMesh& films, MeshFigures& figures) {
   int n_round = 0;
   figures.smallest_radius_ratio = 1;
@@ -71,6 +51,25 @@ void measure_distances(const mesh::FilmMesh& films, const mesh::Topology& topolo
 double radius_ratio(double a, double b, double c) {
   const double product = a * b * c;
   return product > 0 ? (b + c - a) * (c + a - b) * (a + b - c) / product : 0;
+}
+
+int count_turned(const mesh::FilmMesh& films, const mesh::Topology& topology) {
+  const std::vector<Vec3> around = mesh::film_dof_normals(films, topology);
+  std::vector<char> turned(films.n_triangles(), 0);
+  for (int t = 0; t < films.n_triangles(); ++t) {
+    Vec3 mean;
+    for (int dof : topology.corner_dof[t]) mean += around[dof];
+    turned[t] = dot(mesh::doubled_area_normal(films, t), mean) <= 0;
+  }
+  const mesh::EdgeTable edges = mesh::build_edges(films);
+  for (const mesh::MeshEdge& e : edges.edge) {
+    if (e.n_uses != 2) continue;
+    const int left = edges.use[e.first_use].triangle, right = edges.use[e.first_use + 1].triangle;
+    if (topology.triangle_lamella[left] != topology.triangle_lamella[right]) continue;
+    if (dot(mesh::doubled_area_normal(films, left), mesh::doubled_area_normal(films, right)) <= 0)
+      turned[left] = turned[right] = 1;
+  }
+  return static_cast<int>(std::count(turned.begin(), turned.end(), 1));
 }
 
 MeshFigures figures_of(const mesh::FilmMesh& films, const mesh::Topology& topology,

@@ -29,6 +29,9 @@ struct MeshFigures {
 MeshFigures figures_of(const mesh::FilmMesh& films, const mesh::Topology& topology,
                        const mesh::Projection& project);
 
+/// MeshFigures::n_turned alone.
+int count_turned(const mesh::FilmMesh& films, const mesh::Topology& topology);
+
 /// 2 r_in / r_circ of a triangle with sides a, b, c: 1 for an equilateral one, 0 where it has no area.
 double radius_ratio(double a, double b, double c);
 

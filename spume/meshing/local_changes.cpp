@@ -90,6 +90,8 @@ bool LocalChanges::is_filled_corner(const Hinge& e) const {
 void LocalChanges::flip(const Hinge& e) {
   m_.films.triangle[e.left].vertex = {e.a, e.beyond, e.apex};
   m_.films.triangle[e.right].vertex = {e.b, e.apex, e.beyond};
+  m_.renew(e.left);
+  m_.renew(e.right);
   std::erase(m_.star[e.a], e.right);
   std::erase(m_.star[e.b], e.left);
   m_.star[e.apex].push_back(e.right);
@@ -174,7 +176,7 @@ bool LocalChanges::relocate(int v) {
     }
   }
   if (least > before - least_gain) return false;
-  m_.films.position[v] = best;
+  m_.move(v, best);
   return true;
 }
 
@@ -218,6 +220,7 @@ void LocalChanges::collapse(int v, int w) {
     }
     auto& vertex = m_.films.triangle[t].vertex;
     std::replace(vertex.begin(), vertex.end(), v, w);
+    m_.renew(t);
     m_.star[w].push_back(t);
   }
   for (int x : ring_of(m_, w)) drop_dead(x);
@@ -279,7 +282,7 @@ bool LocalChanges::absorb_if_better(int triangle, int corner) {
   }
   if (after > before - least_gain) return false;
 
-  m_.films.position[p] = *there;
+  m_.move(p, *there);
   m_.work.phases[p] = phases;
   m_.dead[triangle] = 1;
   for (int x : vertex) drop_dead(x);
@@ -291,6 +294,8 @@ bool LocalChanges::absorb_if_better(int triangle, int corner) {
     const int added = m_.films.n_triangles();
     m_.films.triangle.push_back(second);
     m_.dead.push_back(0);
+    m_.renew(t);
+    m_.renew(added);
     std::erase(m_.star[b], t);
     m_.star[p].push_back(t);
     for (int x : second.vertex) m_.star[x].push_back(added);

@@ -1,9 +1,13 @@
 #include "spume/meshing/mesh_films.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <numbers>
 
+#include "spume/base/flat_map.hpp"
 #include "spume/mesh/collapse.hpp"
 #include "spume/mesh/flip.hpp"
 #include "spume/mesh/split.hpp"
@@ -18,6 +22,35 @@ namespace {
 // To be on the film is worth more than a good angle, up to these [degrees]. What is poor at first improves.
 constexpr double least_angle_at_first = 5, least_angle = 22;
 constexpr int sweeps_after_corners = 5;
+
+/// Sizes of places that are asked for again and again: splits and collapses leave the other vertices where
+/// they are.
+class RememberedSizes {
+ public:
+  explicit RememberedSizes(const SizeField& size) : size_(size) {}
+  double operator()(const Vec3& x) {
+    const auto next = static_cast<int>(value_.size());
+    const int n = number_.find_or_insert(x, next);
+    if (n == next) value_.push_back(size_(x));
+    return value_[n];
+  }
+
+ private:
+  struct Hash {
+    std::size_t operator()(const Vec3& x) const {
+      std::uint64_t hash = 0;
+      for (int d = 0; d < 3; ++d) {
+        hash = (hash ^ std::bit_cast<std::uint64_t>(x[d])) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32;
+      }
+      return hash;
+    }
+  };
+
+  const SizeField& size_;
+  FlatMap<Vec3, Hash> number_;
+  std::vector<double> value_;
+};
 
 /// Splits and collapses until edges fit their targets, or nearly.
 void fit_edges(mesh::WorkingMesh& work, const mesh::TargetLength& target, const mesh::Projection& project,
@@ -74,7 +107,10 @@ MeshingReport improve(mesh::FilmMesh& films, const mesh::Projection& project, do
   const SizeField size(films, mesh::build_topology(films), sizes_of(h, parameters));
   const mesh::TargetLength target = [&](const Vec3& x) { return size(x); };
   mesh::WorkingMesh work(films);
-  fit_edges(work, target, project, report.remesh);
+  {
+    RememberedSizes remembered(size);
+    fit_edges(work, std::ref(remembered), project, report.remesh);
+  }
   {
     StarMesh star_mesh(work);
     project_vertices(star_mesh, project, least_angle_at_first);
@@ -94,6 +130,12 @@ MeshingReport improve(mesh::FilmMesh& films, const mesh::Projection& project, do
   work.remove(star_mesh.dead);
   report.after = mesh::measure_quality(films, mesh::build_topology(films));
   return report;
+}
+
+int follow_films(mesh::FilmMesh& films, const mesh::Projection& project) {
+  mesh::WorkingMesh work(films);
+  StarMesh star_mesh(work);
+  return project_vertices(star_mesh, project, least_angle);
 }
 
 }  // namespace spume::meshing

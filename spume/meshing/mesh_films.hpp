@@ -42,6 +42,10 @@ struct MeshingReport {
 MeshingReport improve(mesh::FilmMesh& films, const mesh::Projection& project, double h,
                       const MeshingParameters& parameters);
 
+/// Puts the vertices of such a mesh onto films that have moved a little since, but for those where that would
+/// spoil a triangle, as at the end of improve(). Gives the number of those.
+int follow_films(mesh::FilmMesh& films, const mesh::Projection& project);
+
 /// Width of the layer at a Plateau border in which a film thins [m]: sqrt(η r), where r = sqrt(λ/(√3 − π/2))
 /// is the radius of the border (paper, Sec. 5.4). Takes η > 0 [m], λ > 0 [m²].
 double drainage_layer_width(double half_thickness, double border_area);

@@ -11,12 +11,19 @@ namespace {
 
 constexpr double good_angle = 30;  // [degrees]
 
-/// The film around each triangle of v does not change while v moves a little.
+/// The film around each triangle of v does not change while v moves a little. Its normal is a sum over the
+/// corners, which neighbours share.
 class StarBadness {
  public:
   StarBadness(const StarMesh& m, int v) : m_(m), v_(v) {
     normal_.reserve(m.star[v].size());
-    for (int t : m.star[v]) normal_.push_back(m.film_normal(t));
+    at_corner_.reserve(2 * m.star[v].size());
+    for (int t : m.star[v]) {
+      const mesh::FilmTriangle& triangle = m.films.triangle[t];
+      Vec3 normal;
+      for (int w : triangle.vertex) normal += at_corner(w, triangle.phase_a, triangle.phase_b);
+      normal_.push_back(normal);
+    }
   }
   double at(const Vec3& x) const {
     double worst = 0;
@@ -26,9 +33,22 @@ class StarBadness {
   }
 
  private:
+  struct CornerNormal {
+    int vertex;
+    mesh::Phase phase_a, phase_b;
+    Vec3 normal;
+  };
+  Vec3 at_corner(int w, mesh::Phase phase_a, mesh::Phase phase_b) {
+    for (const CornerNormal& c : at_corner_)
+      if (c.vertex == w && c.phase_a == phase_a && c.phase_b == phase_b) return c.normal;
+    at_corner_.push_back({w, phase_a, phase_b, m_.film_normal_at(w, phase_a, phase_b)});
+    return at_corner_.back().normal;
+  }
+
   const StarMesh& m_;
   int v_;
-  std::vector<Vec3> normal_;
+  std::vector<Vec3> normal_;  // of the film around each triangle
+  std::vector<CornerNormal> at_corner_;
 };
 
 }  // namespace
@@ -52,7 +72,7 @@ int move_vertices(StarMesh& m, const mesh::Projection& project, std::span<const 
     for (int halving = 0; halving <= most_halvings; ++halving, step *= 0.5) {
       const auto there = project(start + step, m.work.phases[v]);
       if (!there || around.at(*there) > limit) continue;
-      m.films.position[v] = *there;
+      m.move(v, *there);
       ++n_moved;
       break;
     }
@@ -93,7 +113,7 @@ int project_vertices(StarMesh& m, const mesh::Projection& project, double least_
     const auto there = belonging(m, project, v);
     const StarBadness around(m, v);
     if (there && around.at(*there) <= std::max(around.at(m.films.position[v]), acceptable))
-      m.films.position[v] = *there;
+      m.move(v, *there);
     else
       ++n_off;
   }

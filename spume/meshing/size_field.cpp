@@ -1,7 +1,9 @@
 #include "spume/meshing/size_field.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "spume/base/contract.hpp"
 #include "spume/meshing/rim_widths.hpp"
@@ -44,45 +46,76 @@ SizeField::SizeField(const mesh::FilmMesh& films, const mesh::Topology& topology
       previous = size;
     }
   }
-  sort_points();
+  if (!points_.empty()) build_tree(0, static_cast<int>(points_.size()));
 }
 
 void SizeField::add(const Vec3& x, double size) {
-  const Vec3 inside = domain_.inside(x);
-  points_.push_back({bin_of(inside), inside, std::min(size, sizes_.at_borders)});
+  points_.push_back({domain_.inside(x), std::min(size, sizes_.at_borders)});
 }
 
-void SizeField::sort_points() {
-  std::sort(points_.begin(), points_.end(), [](const Point& a, const Point& b) { return a.bin < b.bin; });
-}
-
-SizeField::Bin SizeField::bin_of(const Vec3& x) const {
-  return {static_cast<int>(std::floor(x.x / reach_)), static_cast<int>(std::floor(x.y / reach_)),
-          static_cast<int>(std::floor(x.z / reach_))};
+/// The tree of points [first, last), halved across its longest extent down to a few points; gives its root.
+int SizeField::build_tree(int first, int last) {
+  constexpr int few = 8;
+  const int root = static_cast<int>(nodes_.size());
+  Node node{first, last, 0, points_[first].position, points_[first].position, points_[first].size};
+  for (int n = first; n < last; ++n) {
+    const Point& p = points_[n];
+    for (int d = 0; d < 3; ++d) {
+      node.low[d] = std::min(node.low[d], p.position[d]);
+      node.high[d] = std::max(node.high[d], p.position[d]);
+    }
+    node.least = std::min(node.least, p.size);
+  }
+  nodes_.push_back(node);
+  if (last - first <= few) return root;
+  const Vec3 extent = node.high - node.low;
+  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  const int middle = (first + last) / 2;
+  std::nth_element(points_.begin() + first, points_.begin() + middle, points_.begin() + last,
+                   [axis](const Point& a, const Point& b) { return a.position[axis] < b.position[axis]; });
+  build_tree(first, middle);
+  nodes_[root].right = build_tree(middle, last);
+  return root;
 }
 
 double SizeField::operator()(const Vec3& x) const {
   double size = sizes_.in_films;
-  domain_.for_each_image(x, reach_, [&](const Vec3& image) { search(image, size); });
+  if (!nodes_.empty()) domain_.for_each_image(x, reach_, [&](const Vec3& image) { search(image, size); });
   return size;
 }
 
 void SizeField::search(const Vec3& x, double& size) const {
-  const Bin centre = bin_of(x);
-  for (int di = -1; di <= 1; ++di)
-    for (int dj = -1; dj <= 1; ++dj) {
-      // The three bins along the last axis lie together in the order of bins.
-      const Bin first{centre[0] + di, centre[1] + dj, centre[2] - 1};
-      const Bin last{centre[0] + di, centre[1] + dj, centre[2] + 1};
-      auto p = std::lower_bound(points_.begin(), points_.end(), first,
-                                [](const Point& a, const Bin& b) { return a.bin < b; });
-      for (; p != points_.end() && p->bin <= last; ++p) {
-        const double room = (size - p->size) / sizes_.grading;  // nearer than this it counts
-        if (room <= 0) continue;
-        const double distance_squared = norm_squared(p->position - x);
-        if (distance_squared < room * room) size = p->size + sizes_.grading * std::sqrt(distance_squared);
-      }
+  constexpr int most_waiting = 64;                           // more than a tree of halves is deep
+  std::array<std::pair<int, double>, most_waiting> waiting;  // nodes, and how far they are, squared
+  const auto distance_squared = [&](int n) {
+    const Node& node = nodes_[n];
+    double sum = 0;
+    for (int d = 0; d < 3; ++d) {
+      const double outside = std::max({node.low[d] - x[d], x[d] - node.high[d], 0.0});
+      sum += outside * outside;
     }
+    return sum;
+  };
+  int n_waiting = 0;
+  waiting[n_waiting++] = {0, distance_squared(0)};
+  while (n_waiting > 0) {
+    const auto [n, away_squared] = waiting[--n_waiting];
+    const Node& node = nodes_[n];
+    const double node_room = (size - node.least) / sizes_.grading;  // nearer than this it counts
+    if (node_room <= 0 || away_squared >= node_room * node_room) continue;
+    if (node.right > 0) {
+      const std::pair left{n + 1, distance_squared(n + 1)}, right{node.right, distance_squared(node.right)};
+      const bool left_first = left.second <= right.second;
+      waiting[n_waiting++] = left_first ? right : left;
+      waiting[n_waiting++] = left_first ? left : right;
+      continue;
+    }
+    for (int k = node.first; k < node.last; ++k) {
+      const Point& p = points_[k];
+      const double room = (size - p.size) / sizes_.grading, apart_squared = norm_squared(p.position - x);
+      if (room > 0 && apart_squared < room * room) size = p.size + sizes_.grading * std::sqrt(apart_squared);
+    }
+  }
 }
 
 }  // namespace spume::meshing

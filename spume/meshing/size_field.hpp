@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "spume/mesh/film_mesh.hpp"
@@ -32,22 +31,27 @@ class SizeField {
   double operator()(const Vec3& x) const;
 
  private:
-  using Bin = std::array<int, 3>;
   struct Point {
-    Bin bin;
     Vec3 position;
     double size;
   };
+  /// Points [first, last) and a box around them; the node's halves are the next node and `right`, or it has
+  /// none where that is 0.
+  struct Node {
+    int first, last, right;
+    Vec3 low, high;
+    double least;  ///< size
+  };
 
   void add(const Vec3& x, double size);
-  void sort_points();
+  int build_tree(int first, int last);
   void search(const Vec3& x, double& size) const;
-  Bin bin_of(const Vec3& x) const;
 
   Domain domain_;
   Sizes sizes_;
   double reach_;  ///< beyond it no point counts [m]
   std::vector<Point> points_;
+  std::vector<Node> nodes_;  ///< the root first
 };
 
 }  // namespace spume::meshing

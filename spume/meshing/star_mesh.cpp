@@ -29,7 +29,20 @@ StarMesh::StarMesh(mesh::WorkingMesh& working_mesh)
     : work(working_mesh),
       films(working_mesh.mesh),
       star(mesh::vertex_stars(working_mesh.mesh)),
-      dead(working_mesh.mesh.n_triangles(), 0) {}
+      dead(working_mesh.mesh.n_triangles(), 0),
+      normal_(working_mesh.mesh.n_triangles()) {
+  for (int t = 0; t < films.n_triangles(); ++t) renew(t);
+}
+
+void StarMesh::move(int v, const Vec3& x) {
+  films.position[v] = x;
+  for (int t : star[v]) renew(t);
+}
+
+void StarMesh::renew(int triangle) {
+  if (triangle >= static_cast<int>(normal_.size())) normal_.resize(triangle + 1);
+  normal_[triangle] = mesh::doubled_area_normal(films, triangle);
+}
 
 bool StarMesh::has(int triangle, int v) const {
   const auto& corner = films.triangle[triangle].vertex;
@@ -58,15 +71,19 @@ Corners StarMesh::corners_with(int triangle, int v, const Vec3& x) const {
   return corner;
 }
 
+Vec3 StarMesh::film_normal_at(int v, mesh::Phase phase_a, mesh::Phase phase_b) const {
+  Vec3 normal;
+  for (int s : star[v]) {
+    const mesh::FilmTriangle& t = films.triangle[s];
+    if (t.phase_a == phase_a && t.phase_b == phase_b) normal += normal_[s];
+  }
+  return normal;
+}
+
 Vec3 StarMesh::film_normal(int triangle) const {
   const mesh::FilmTriangle& t = films.triangle[triangle];
   Vec3 normal;
-  for (int v : t.vertex)
-    for (int s : star[v]) {
-      const mesh::FilmTriangle& other = films.triangle[s];
-      if (other.phase_a == t.phase_a && other.phase_b == t.phase_b)
-        normal += mesh::doubled_area_normal(films, s);
-    }
+  for (int v : t.vertex) normal += film_normal_at(v, t.phase_a, t.phase_b);
   return normal;
 }
 

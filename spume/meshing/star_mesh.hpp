@@ -15,11 +15,16 @@ double badness(const Corners& corners, const Vec3& film_normal);
 /// That of a triangle whose smallest angle is the given one, not turned.
 double badness_of_angle(double degrees);
 
-/// A mesh under improvement with the triangles at each vertex, which every change keeps up to date. Triangles
-/// that are gone stay marked as dead until the mesh is swept.
+/// A mesh under improvement with the triangles at each vertex and their normals, which every change keeps up
+/// to date. Triangles that are gone stay marked as dead until the mesh is swept.
 class StarMesh {
  public:
   explicit StarMesh(mesh::WorkingMesh& working_mesh);
+
+  /// Puts vertex v at x.
+  void move(int v, const Vec3& x);
+  /// To be called after the corners of a triangle have changed, or when one is new at the end.
+  void renew(int triangle);
 
   bool has(int triangle, int v) const;
   /// Number of triangles at the edge between two vertices, which need not exist.
@@ -34,6 +39,8 @@ class StarMesh {
   /// Normal of the film around a triangle: the sum of doubled areas over all triangles of the same two phases
   /// at its corners [m²].
   Vec3 film_normal(int triangle) const;
+  /// The part of that sum at one corner, which other triangles of the film share.
+  Vec3 film_normal_at(int v, mesh::Phase phase_a, mesh::Phase phase_b) const;
 
   double badness_of(int triangle) const { return badness(corners(triangle), film_normal(triangle)); }
 
@@ -41,6 +48,9 @@ class StarMesh {
   mesh::FilmMesh& films;
   std::vector<std::vector<int>> star;
   std::vector<char> dead;  ///< of triangles
+
+ private:
+  std::vector<Vec3> normal_;  ///< of triangles, as long as twice their areas [m²]
 };
 
 }  // namespace spume::meshing

@@ -3,13 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "spume/base/error.hpp"
-#include "spume/interface/reconstruct.hpp"
 #include "spume/mesh/measure.hpp"
-#include "spume/mesh/volume_constraint.hpp"
-#include "spume/meshing/mesh_films.hpp"
+#include "spume/simulation/drainage_mesh.hpp"
 #include "spume/simulation/film_source.hpp"
 #include "spume/simulation/film_update.hpp"
 
@@ -36,42 +33,28 @@ const char* name(mesh::VertexKind kind) {
   return "";
 }
 
-/// Width of the boundary layers at the films' rims [m], from the mean η and λ; 0 where there are no borders.
-double layer_width(const state::Foam& foam, const mesh::Topology& topology) {
-  const auto lengths = mesh::border_dof_lengths(foam.films, topology);
-  const double area = mesh::film_area(foam.films),
-               length = std::accumulate(lengths.begin(), lengths.end(), 0.0);
-  const auto sum = [](const std::vector<double>& volume) {
-    return std::accumulate(volume.begin(), volume.end(), 0.0);
-  };
-  if (!(area > 0 && length > 0)) return 0;
-  return meshing::drainage_layer_width(sum(foam.liquid.lamella_volume) / (2 * area),
-                                       sum(foam.liquid.border_volume) / length);
-}
-
-/// Reconstructs the films once more, for a projection onto them, and gives them the mesh for drainage.
+/// Gives the foam the mesh for drainage.
 void mesh_films(const grid::Grid& grid, const Case& run_case, RunState& run, Witness& witness) {
   const double old_area = mesh::film_area(run.foam.films);
-  FilmUpdate update = reconstruct_films(grid, run_case, mesh::build_topology(run.foam.films), run.foam);
-  witness.events(update.events);
-  mesh::FilmMesh films = run.foam.films;
-  meshing::MeshingParameters parameters = run_case.meshing;
-  parameters.layer_width = layer_width(run.foam, update.topology);
-  const auto report =
-      meshing::improve(films, interface::projection_onto(update.potentials), grid.h(), parameters);
-  if (run_case.rearrangement.conserve_volumes)
-    mesh::restore_volumes(films, run.foam.phases.target_volume, 3, 0.1 * grid.h());
-  const mesh::Topology topology = mesh::build_topology(films);
-  replace_films(grid.communicator(), run_case, grid.h(), std::move(films), topology, update.topology,
-                run.foam, update.transfer);
+  std::vector<state::Event> events;
+  DrainageMesh mesh = mesh_for_drainage(grid, run_case, run.foam, events);
+  witness.events(events);
+  replace_films(grid.communicator(), run_case, grid.h(), std::move(mesh.films), mesh.topology,
+                mesh.update.topology, run.foam, mesh.update.transfer);
   const double correction =
       2 * run_case.materials.film.surface_tension * (mesh::film_area(run.foam.films) - old_area);
-  witness.step(run, topology, {.correction = correction}, "meshing");
-  if (report.after.smallest_angle_degrees < run_case.meshing.smallest_angle_degrees ||
-      report.after.n_inverted > 0)
+  witness.step(run, mesh.topology, {.correction = correction}, "meshing");
+  const auto& quality = mesh.report.after;
+  if (mesh.n_relaxation_steps > 0)
+    witness.event(
+        run, "relaxed",
+        fmt::format("{} steps without gas before drainage: smallest angle of its mesh {:.3g} degrees, "
+                    "before {:.3g}",
+                    mesh.n_relaxation_steps, quality.smallest_angle_degrees, mesh.first_smallest_angle));
+  if (quality.smallest_angle_degrees < run_case.meshing.smallest_angle_degrees || mesh.n_turned > 0)
     witness.event(run, "poor mesh",
-                  fmt::format("smallest angle {:.3g} degrees; {} inverted triangles",
-                              report.after.smallest_angle_degrees, report.after.n_inverted));
+                  fmt::format("smallest angle {:.3g} degrees; {} turned triangles",
+                              quality.smallest_angle_degrees, mesh.n_turned));
 }
 
 std::optional<Weakest> weakest_of(const mesh::Topology& topology, const state::ThinPoint& point) {

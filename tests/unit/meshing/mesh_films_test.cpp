@@ -146,6 +146,29 @@ TEST_P(Strip, between_closed_borders_is_meshed_at_its_own_width) {
 }
 INSTANTIATE_TEST_SUITE_P(Widths, Strip, ::testing::Values(0.25, 0.5, 1.0, 2.0, 3.0));
 
+TEST(FilmMeshing, lets_a_mesh_follow_films_that_have_moved) {
+  mesh::FilmMesh films = shapes::four_bubbles(radius, 6);
+  const mesh::Topology before = mesh::build_topology(films);
+  const double h = 0.15 * radius, larger = radius + 0.1 * h;
+  improve(films, on_cluster, h, uniform());
+  const auto on_larger_cluster = [&](const Vec3& x, const mesh::PhaseSet& phases) {
+    return shapes::on_four_bubbles(larger, x, phases);
+  };
+  EXPECT_EQ(follow_films(films, on_larger_cluster), 0);
+  expect_good_mesh(films, before, on_larger_cluster);
+}
+
+TEST(FilmMeshing, does_not_let_a_vertex_follow_that_would_fold_the_film) {
+  mesh::FilmMesh films = shapes::sphere({}, radius, 3, 1);
+  const auto corner = films.triangle[0].vertex;
+  const Vec3 stays = films.position[corner[0]], beside = films.position[corner[1]];
+  const auto astray = [&](const Vec3& x, const mesh::PhaseSet&) {
+    return std::optional(norm(x - stays) == 0 ? radius * normalized(2 * beside - stays) : x);
+  };
+  EXPECT_EQ(follow_films(films, astray), 1);
+  EXPECT_EQ(films.position[corner[0]], stays);
+}
+
 TEST(FilmMeshing, gives_the_same_mesh_again_to_the_last_bit) {
   const mesh::FilmMesh rough = shaken(shapes::four_bubbles(radius, 5), 0.04 * radius, on_cluster);
   mesh::FilmMesh a = rough, b = rough;

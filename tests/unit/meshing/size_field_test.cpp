@@ -53,6 +53,27 @@ TEST(SizeField, is_fine_at_borders_and_grows_no_faster_than_asked) {
   EXPECT_EQ(size({10 * radius, 0, 0}), sizes.in_films);
 }
 
+TEST(SizeField, is_the_least_that_any_place_on_a_border_asks_for) {
+  const mesh::FilmMesh films = shapes::four_bubbles(radius, 8);
+  const mesh::Topology topology = mesh::build_topology(films);
+  const Sizes sizes{0.3 * radius, 0.1 * radius, 0.02 * radius, 0.01 * radius, 0.25};
+  const SizeField size = field_of(films, sizes);
+  double longest = 0;
+  for (const auto& e : topology.border_edge)
+    longest = std::max(longest, norm(films.edge(e.vertex[0], e.vertex[1])));
+  Random random(5);
+  for (int n = 0; n < 500; ++n) {
+    const Vec3 x =
+        radius * Vec3{random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5)};
+    double least = sizes.in_films;
+    for (int v = 0; v < films.n_vertices(); ++v)
+      if (topology.vertex_kind[v] != mesh::VertexKind::Film)
+        least = std::min(least, size(films.position[v]) + sizes.grading * norm(x - films.position[v]));
+    EXPECT_LE(size(x), least * (1 + 1e-12));
+    EXPECT_GE(size(x), least - sizes.grading * 0.5 * longest) << "places between vertices may be nearer";
+  }
+}
+
 TEST(SizeField, follows_the_width_of_narrow_films_down_to_a_limit) {
   const mesh::FilmMesh films = shapes::sliced_ball(radius, 0.05 * radius, 0.1 * radius);
   const double rim = std::sqrt(1 - 0.025 * 0.025) * radius;
