@@ -9,6 +9,7 @@
 #include "spume/base/error.hpp"
 #include "spume/interface/contour_parts.hpp"
 #include "spume/interface/field_bins.hpp"
+#include "spume/interface/mixed_cubes.hpp"
 
 namespace spume::interface {
 
@@ -65,21 +66,18 @@ class Contourer {
  public:
   Contourer(const PhasePotentials& potentials, const std::vector<mesh::Phase>& winner, Pieces pieces)
       : potentials_(potentials),
-        winner_(winner),
         pieces_(pieces),
+        cubes_(potentials.lattice(), winner),
         bins_(potentials),
-        whole_(all_cells(potentials.box().cells)),
-        cubes_(whole_) {
+        whole_(all_cells(potentials.box().cells)) {
     films_.domain = potentials.box().domain();
-    for (int d = 0; d < 3; ++d)
-      if (!potentials_.lattice().periodic[d]) --cubes_.end[d];
   }
 
   /// The films of the layers of cubes from `begin` to before `end`.
   ContourPart run(int begin, int end) {
     begin_ = begin;
     end_ = end;
-    const int n_layers = cubes_.end.k;
+    const int n_layers = cubes_.end().k;
     kind_.assign(whole_.size(), CubeKind::Empty);
     // A cube looks at its neighbours, too.
     for (int k = begin - 1; k <= end; ++k) {
@@ -97,62 +95,20 @@ class Contourer {
     return {std::move(films_), std::move(seam_)};
   }
 
-  /// Offsets of shares of the layers with about as many films each.
-  std::vector<int> shares_of_layers(int n_shares) {
-    std::vector<long> up_to{0};
-    for (int k = 0; k < cubes_.end.k; ++k) {
-      long n_mixed = 0;
-      for (int j = 0; j < cubes_.end.j; ++j) {
-        find_mixed_cubes(cubes_.end.i, j, k);
-        n_mixed += std::count_if(mixed_.begin(), mixed_.end(), [](int mixed) { return mixed != 0; });
-      }
-      up_to.push_back(up_to.back() + n_mixed);
-    }
-    std::vector<int> offset;
-    for (int n = 0; n <= n_shares; ++n)
-      offset.push_back(static_cast<int>(
-          std::lower_bound(up_to.begin(), up_to.end(), up_to.back() * n / n_shares) - up_to.begin()));
-    offset.back() = cubes_.end.k;
-    return offset;
-  }
-
  private:
   template <class Body>
   void for_each_mixed_cube(int k, Body&& body) {
-    for (int j = cubes_.begin.j; j < cubes_.end.j; ++j) {
-      find_mixed_cubes(cubes_.end.i, j, k);
-      for (int i = cubes_.begin.i; i < cubes_.end.i; ++i)
-        if (mixed_[i]) {
-          cube_ = {i, j, k};
-          read_winners(i, j, k);
-          body(kind_[whole_.offset(i, j, k)]);
-        }
-    }
+    cubes_.for_each_in_layer(k, [&](const Index3& cube) {
+      cube_ = cube;
+      cube_winner_ = cubes_.winners_of(cube);
+      body(kind_[whole_.offset(cube.i, cube.j, cube.k)]);
+    });
   }
   CubeKind kind_of_cube() {
-    if (pieces_ == Pieces::OfTetrahedra || !has_two_winners() || has_ambiguous_face())
+    if (pieces_ == Pieces::OfTetrahedra || !are_two_phases(cube_winner_) || has_ambiguous_face(cube_winner_))
       return CubeKind::Several;
     find_candidates();
     return n_cube_ == 2 ? CubeKind::OneFilm : CubeKind::Several;
-  }
-  bool has_two_winners() const {
-    const auto& w = cube_winner_;
-    const mesh::Phase other = *std::find_if(w.begin(), w.end(), [&](mesh::Phase p) { return p != w[0]; });
-    return std::all_of(w.begin(), w.end(), [&](mesh::Phase p) { return p == w[0] || p == other; });
-  }
-  /// Marks the cubes of a row that are not of one winner.
-  void find_mixed_cubes(int n, int j, int k) {
-    const int last = whole_.end.i - 1;  // whose cube, in a periodic row, goes on at the other end
-    mixed_.resize(n);
-    const mesh::Phase* w = &winner_[lattice_point(0, j, k, 0)];
-    const mesh::Phase *y = &winner_[lattice_point(0, j, k, 2)], *z = &winner_[lattice_point(0, j, k, 4)],
-                      *yz = &winner_[lattice_point(0, j, k, 6)];
-    const auto is_mixed = [=](int i, int next) {
-      return (w[i] ^ w[next]) | (w[i] ^ y[i]) | (w[i] ^ y[next]) | (w[i] ^ z[i]) | (w[i] ^ z[next]) |
-             (w[i] ^ yz[i]) | (w[i] ^ yz[next]);
-    };
-    for (int i = 0; i < last; ++i) mixed_[i] = is_mixed(i, i + 1);
-    if (n > last) mixed_[last] = is_mixed(last, 0);
   }
   static std::array<double, 8> values_of_cube(const PhaseField& field, int i, int j, int k) {
     const Index3 c = field.lattice.image_in(field.cells, i, j, k);
@@ -166,26 +122,6 @@ class Contourer {
     }
     return value;
   }
-  void read_winners(int i, int j, int k) {
-    for (int c = 0; c < 8; ++c) cube_winner_[c] = winner_[lattice_point(i, j, k, c)];
-  }
-  std::size_t lattice_point(int i, int j, int k, int corner) const {
-    const Lattice& lattice = potentials_.lattice();
-    return whole_.offset(lattice.image(i + (corner & 1), 0, 0), lattice.image(j + (corner >> 1 & 1), 0, 1),
-                         lattice.image(k + (corner >> 2), 0, 2));
-  }
-
-  /// A line that visits a face twice could be filled by a diagonal in that face, on both its sides.
-  bool has_ambiguous_face() const {
-    const auto& w = cube_winner_;
-    for (int axis = 0; axis < 3; ++axis) {
-      const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3;
-      for (int o : {0, 1 << axis})
-        if (w[o] == w[o | u | v] && w[o | u] == w[o | v] && w[o] != w[o | u]) return true;
-    }
-    return false;
-  }
-
   /// The film of two phases in a cube where no other competes: closed lines on the faces of the cube, filled.
   /// On faces to cubes with several films the lines have the corners of the tetrahedra there, elsewhere only
   /// those on the edges of the cube.
@@ -233,9 +169,8 @@ class Contourer {
            kind_[whole_.offset(beyond.i, beyond.j, beyond.k)] != CubeKind::Several;
   }
   int vertex_on_edge(int low, int high, const std::array<double, 8>& excess) {
-    const VertexKey key{
-        lattice_point(cube_.i, cube_.j, cube_.k, low) << 9 | static_cast<unsigned>(low ^ high),
-        {cube_phase_[0], cube_phase_[1], -1, -1}};
+    const VertexKey key{cubes_.lattice_point(cube_, low) << 9 | static_cast<unsigned>(low ^ high),
+                        {cube_phase_[0], cube_phase_[1], -1, -1}};
     const int number = number_of(key);
     if (number == films_.n_vertices()) {
       const double s = excess[low] == excess[high] ? 0.5 : excess[low] / (excess[low] - excess[high]);
@@ -459,7 +394,7 @@ class Contourer {
     for (int c = lowest + 1; c < 4; ++c)
       if (in_simplex >> c & 1)
         chain |= static_cast<std::uint64_t>(mask_[c] ^ mask_[lowest]) << (3 * n_steps++);
-    VertexKey key{lattice_point(cube_.i, cube_.j, cube_.k, mask_[lowest]) << 9 | chain, {-1, -1, -1, -1}};
+    VertexKey key{cubes_.lattice_point(cube_, mask_[lowest]) << 9 | chain, {-1, -1, -1, -1}};
     std::copy(phases.begin(), phases.end(), key.phases.begin());
     const int number = number_of(key);
     if (number == films_.n_vertices()) films_.position.push_back(position(polygon.corner[corner]));
@@ -475,21 +410,19 @@ class Contourer {
   }
 
   const PhasePotentials& potentials_;
-  const std::vector<mesh::Phase>& winner_;
   Pieces pieces_;
+  MixedCubes cubes_;
   FieldBins bins_;
   CellBox whole_;
-  CellBox cubes_;  ///< by their lowest corners
   int begin_ = 0, end_ = 0;
   mesh::FilmMesh films_;
   std::vector<SeamVertex> seam_;
   VertexNumbers vertex_of_;
   std::vector<CubeKind> kind_;  ///< of the cube above each lattice point
-  std::vector<int> mixed_;      ///< of the row: 0 where all corners of a cube have one winner
 
   // of the cube
   Index3 cube_;
-  std::array<mesh::Phase, 8> cube_winner_;
+  CubeWinners cube_winner_;
   int n_cube_ = 0;
   std::array<mesh::Phase, max_near> cube_phase_;
   std::array<std::array<double, 8>, max_near> cube_value_;
@@ -507,9 +440,8 @@ mesh::FilmMesh contour(const parallel::Communicator& ranks, const PhasePotential
                        const std::vector<mesh::Phase>& winner, Pieces pieces) {
   ContourPart part;
   ranks.together([&] {
-    Contourer contourer(potentials, winner, pieces);
-    const auto share = contourer.shares_of_layers(ranks.size());
-    part = contourer.run(share[ranks.rank()], share[ranks.rank() + 1]);
+    const auto share = MixedCubes(potentials.lattice(), winner).shares_of_layers(ranks.size());
+    part = Contourer(potentials, winner, pieces).run(share[ranks.rank()], share[ranks.rank() + 1]);
   });
   return joined(ranks, std::move(part));
 }

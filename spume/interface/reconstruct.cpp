@@ -79,7 +79,7 @@ PhasePotentials potentials_of_resolved(const grid::Grid& grid, const mesh::FilmM
 /// topology of the mesh.
 mesh::Topology settle(mesh::FilmMesh& films, const state::Phases& phases,
                       const ReconstructParameters& parameters, double h) {
-  constexpr int n_steps = 4;
+  constexpr int n_steps = 2;
   mesh::Topology topology = mesh::build_topology(films);
   if (!(parameters.relaxation > 0) || films.triangle.empty()) return topology;
   state::Phases measured = phases;
