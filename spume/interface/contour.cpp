@@ -73,6 +73,8 @@ class Contourer {
     films_.domain = potentials.box().domain();
   }
 
+  std::vector<int> shares_of_layers(int n_shares) { return cubes_.shares_of_layers(n_shares); }
+
   /// The films of the layers of cubes from `begin` to before `end`.
   ContourPart run(int begin, int end) {
     begin_ = begin;
@@ -355,7 +357,8 @@ class Contourer {
       double shortest = -1;
       for (int m = 0; m < n; ++m) {
         const double l = norm_squared(films_.edge(v[(m + n - 1) % n], v[(m + 1) % n]));
-        if (shortest >= 0 && l >= shortest) continue;
+        // Equals but for round-off, of which ranks may have their own: the first.
+        if (shortest >= 0 && l >= (1 - 1e-9) * shortest) continue;
         shortest = l;
         ear = m;
       }
@@ -440,8 +443,9 @@ mesh::FilmMesh contour(const parallel::Communicator& ranks, const PhasePotential
                        const std::vector<mesh::Phase>& winner, Pieces pieces) {
   ContourPart part;
   ranks.together([&] {
-    const auto share = MixedCubes(potentials.lattice(), winner).shares_of_layers(ranks.size());
-    part = Contourer(potentials, winner, pieces).run(share[ranks.rank()], share[ranks.rank() + 1]);
+    Contourer contourer(potentials, winner, pieces);
+    const auto share = contourer.shares_of_layers(ranks.size());
+    part = contourer.run(share[ranks.rank()], share[ranks.rank() + 1]);
   });
   return joined(ranks, std::move(part));
 }

@@ -28,7 +28,7 @@ enum class Pieces { OfCubes, OfTetrahedra };
 /// `winner` is as of find_winners(), the same on every rank as the potentials. Phases that one winner beats
 /// at all corners of a cube are left out; a phase may win inside a tetrahedron without winning at a corner.
 /// Throws NumericalError where more than 24 phases compete in a cube. Collective: each rank does some layers
-/// of cubes, and gets the whole mesh, the same as one rank would make.
+/// of cubes, and gets the whole mesh, the same as one rank would make; a failure of one is one of all.
 mesh::FilmMesh contour(const parallel::Communicator& ranks, const PhasePotentials& potentials,
                        const std::vector<mesh::Phase>& winner, Pieces pieces = Pieces::OfCubes);
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "spume/base/contract.hpp"
 #include "spume/base/error.hpp"
 #include "spume/interface/clearance.hpp"
 #include "spume/interface/curved_triangles.hpp"
@@ -108,6 +109,9 @@ Reconstruction reconstruct(const grid::Grid& grid, const mesh::FilmMesh& films, 
 Reconstruction reconstruct(const grid::Grid& grid, const mesh::FilmMesh& films,
                            const mesh::Topology& topology, state::Phases& phases,
                            const ReconstructParameters& parameters) {
+  expects(topology.triangle_lamella.size() == films.triangle.size() &&
+              topology.vertex_phases.size() == films.position.size(),
+          "the topology is that of the films");
   const double h = grid.h(), edge = parameters.smallest_bubble_cells * h,
                smallest_volume = edge * edge * edge;
   ReconstructReport report;

@@ -10,7 +10,7 @@ namespace spume::interface {
 /// and j moves by (c_i − c_j)/2, so to first order Σ_j A_ij (c_i − c_j)/2 = V_i^target − V_i: a graph
 /// Laplacian of film areas. In a group of phases linked by films the lowest one stays (the outside in its
 /// own). No constant exceeds `largest` [m], because bubbles near the size of a cell do not follow the linear
-/// law. `films` is the contour of the potentials.
+/// law. `films` lie on the films of the potentials.
 void raise_to_volumes(PhasePotentials& potentials, const mesh::FilmMesh& films, const state::Phases& phases,
                       double largest);
 

@@ -114,6 +114,33 @@ std::vector<Vec3> film_dof_normals(const FilmMesh& mesh, const Topology& topolog
   return normal;
 }
 
+std::vector<Vec3> doubled_vertex_normals(const FilmMesh& mesh) {
+  std::vector<Vec3> sum(mesh.position.size());
+  for (int t = 0; t < mesh.n_triangles(); ++t) {
+    const Vec3 normal = doubled_area_normal(mesh, t);
+    for (int v : mesh.triangle[t].vertex) sum[v] += normal;
+  }
+  return sum;
+}
+
+std::vector<Vec3> border_tangents(const FilmMesh& mesh, const Topology& topology) {
+  constexpr double least_sum = 0.5;  // of the directions of two edges in a row
+  std::vector<Vec3> sum(mesh.position.size());
+  std::vector<int> n_edges(mesh.position.size(), 0);
+  for (const auto& border : topology.border)
+    for (std::size_t n = 1; n < border.vertices.size(); ++n) {
+      const int from = border.vertices[n - 1], to = border.vertices[n];
+      const Vec3 along = normalized(mesh.edge(from, to));
+      for (int v : {from, to}) {
+        sum[v] += along;
+        ++n_edges[v];
+      }
+    }
+  for (std::size_t v = 0; v < sum.size(); ++v)
+    sum[v] = n_edges[v] == 2 && norm(sum[v]) > least_sum ? normalized(sum[v]) : Vec3{};
+  return sum;
+}
+
 std::vector<Vec3> area_descent(const FilmMesh& mesh) {
   std::vector<Vec3> descent(mesh.position.size());
   for (int t = 0; t < mesh.n_triangles(); ++t) {
@@ -140,10 +167,7 @@ std::vector<Vec3> weighted_volume_gradient(const FilmMesh& mesh, std::span<const
 
 std::vector<double> film_pressures(const FilmMesh& mesh, const Topology& topology,
                                    std::span<const Vec3> force, int n_phases) {
-  std::vector<Vec3> doubled_area(mesh.position.size());
-  for (int t = 0; t < mesh.n_triangles(); ++t)
-    for (int v : mesh.triangle[t].vertex) doubled_area[v] += doubled_area_normal(mesh, t);
-
+  const std::vector<Vec3> doubled_area = doubled_vertex_normals(mesh);
   // Row and column of the outside are written too and left out of the solve.
   Eigen::MatrixXd laplacian = Eigen::MatrixXd::Zero(n_phases, n_phases);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n_phases);

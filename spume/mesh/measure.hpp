@@ -30,6 +30,14 @@ std::vector<double> border_lengths(const FilmMesh& mesh, const Topology& topolog
 /// Area-weighted unit normal of every film dof, from the lamella's phase_a into phase_b.
 std::vector<Vec3> film_dof_normals(const FilmMesh& mesh, const Topology& topology);
 
+/// Σ over the triangles at each vertex of twice their area times their normals, phase_a to phase_b [m²]:
+/// along the normal of the film at vertices inside one.
+std::vector<Vec3> doubled_vertex_normals(const FilmMesh& mesh);
+
+/// Unit tangent of the border at every vertex inside one; zero at all others, where borders meet or touch,
+/// and where a border turns back on itself, by more than 150 degrees.
+std::vector<Vec3> border_tangents(const FilmMesh& mesh, const Topology& topology);
+
 /// −∂A/∂x_v of the whole film area [m]: times the film tension 2σ this is the force on the vertex.
 std::vector<Vec3> area_descent(const FilmMesh& mesh);
 /// Σ over the triangles at each vertex of (value_a − value_b) A n/3 = Σ_i value_i ∂V_i/∂x_v, for one value

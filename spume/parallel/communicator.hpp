@@ -9,7 +9,8 @@
 namespace spume::parallel {
 
 /// The ranks that share one simulation. A light handle; copies refer to the same ranks.
-/// Every member function but rank() and size() is Collective.
+/// Every member function that is not a mere question about this rank (rank, size, is_root, handle, shares) is
+/// Collective.
 class Communicator {
  public:
   static Communicator world() { return Communicator(MPI_COMM_WORLD); }
@@ -35,7 +36,8 @@ class Communicator {
   /// sent byte by byte.
   template <class T>
   void all_gather(std::span<T> values, std::span<const int> offset) const;
-  /// The parts of all ranks one after another, and where each begins, and the end.
+  /// The parts of all ranks one after another; `offset` gets where each begins, and the end. T is trivially
+  /// copyable.
   template <class T>
   std::vector<T> joined(std::vector<T> part, std::vector<int>& offset) const;
   /// Offsets of even shares of n items.

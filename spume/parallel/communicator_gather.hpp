@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>

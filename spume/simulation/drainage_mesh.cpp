@@ -39,8 +39,8 @@ double layer_width(const state::Foam& foam, const mesh::Topology& topology) {
 
 /// Raises the potentials so that the films enclose the volumes of the bubbles, by how much their vertices,
 /// projected, do not.
-void fit_volumes(const grid::Grid& grid, interface::PhasePotentials& potentials, mesh::FilmMesh films,
-                 const mesh::Topology& topology, const state::Phases& phases) {
+void fit_potentials(const grid::Grid& grid, interface::PhasePotentials& potentials, mesh::FilmMesh films,
+                    const mesh::Topology& topology, const state::Phases& phases) {
   for (int round = 0; round < volume_rounds; ++round) {
     interface::project_vertices(grid.communicator(), potentials, topology, films);
     interface::raise_to_volumes(potentials, films, phases, largest_shift_cells * grid.h());
@@ -48,8 +48,8 @@ void fit_volumes(const grid::Grid& grid, interface::PhasePotentials& potentials,
 }
 
 /// The same for a finished mesh, which follows.
-void fit_volumes(double h, interface::PhasePotentials& potentials, const mesh::Projection& project,
-                 const state::Phases& phases, mesh::FilmMesh& films, int& n_off) {
+void fit_mesh(double h, interface::PhasePotentials& potentials, const mesh::Projection& project,
+              const state::Phases& phases, mesh::FilmMesh& films, int& n_off) {
   for (int round = 0; round < volume_rounds; ++round) {
     interface::raise_to_volumes(potentials, films, phases, largest_shift_cells * h);
     n_off = meshing::follow_films(films, project);
@@ -77,14 +77,14 @@ void mesh_once(const grid::Grid& grid, const Case& run_case, state::Foam& foam,
   const double start = processor_time();
   const bool fits = run_case.rearrangement.conserve_volumes;
   const auto potentials = std::make_shared<interface::PhasePotentials>(*update.potentials);
-  if (fits) fit_volumes(grid, *potentials, foam.films, update.topology, foam.phases);
+  if (fits) fit_potentials(grid, *potentials, foam.films, update.topology, foam.phases);
   result.project = interface::projection_onto(potentials);
   result.films = foam.films;
   meshing::MeshingParameters parameters = run_case.meshing;
   parameters.layer_width = layer_width(foam, update.topology);
   result.report = meshing::improve(result.films, result.project, grid.h(), parameters);
   if (fits) {
-    fit_volumes(grid.h(), *potentials, result.project, foam.phases, result.films, result.report.n_off);
+    fit_mesh(grid.h(), *potentials, result.project, foam.phases, result.films, result.report.n_off);
     result.largest_shift = largest_shift(*update.potentials, *potentials, update.topology);
   }
   result.topology = mesh::build_topology(result.films);
@@ -108,10 +108,11 @@ DrainageMesh mesh_for_drainage(const grid::Grid& grid, const Case& run_case, sta
   for (int time = 0; run_case.rearrangement.conserve_volumes && time < most_times; ++time) {
     if (is_good(result, run_case)) break;
     int n_steps = 0;
-    equilibrate(grid, run_case, foam, events,
-                [&](const auto&, const auto&) { return ++n_steps < steps_at_once; });
+    const auto relaxed = equilibrate(grid, run_case, foam, events,
+                                     [&](const auto&, const auto&) { return ++n_steps < steps_at_once; });
     result.n_relaxation_steps += n_steps;
     mesh_once(grid, run_case, foam, events, result);
+    if (relaxed.converged) break;  // no T1 goes on
   }
   return result;
 }

@@ -32,9 +32,11 @@ struct DrainageMesh {
 ///
 /// T1s: a foam in the middle of a T1 may have a film much narrower than a cell that runs out into a wedge, of
 /// which no mesh has good angles. Such a film opens or closes in a capillary time, while drainage takes
-/// seconds: as long as the smallest angle is below run_case.meshing.smallest_angle_degrees, the films relax
-/// by five more steps without gas (equilibrate.hpp) and are meshed again, up to six times. Foams at rest are
-/// not concerned. Events of the reconstructions go to `events`. Collective.
+/// seconds: as long as the smallest angle is below run_case.meshing.smallest_angle_degrees, or a triangle is
+/// turned, the films relax by five more steps without gas (equilibrate.hpp) and are meshed again, up to six
+/// times or until they are at rest; the last mesh is kept, good or not, and the energy that the films lost is
+/// part of the correction that meshing makes. Without rearrangement.conserve_volumes nothing is fitted or
+/// relaxed. Events of the reconstructions go to `events`. Throws as reconstruct_films(). Collective.
 DrainageMesh mesh_for_drainage(const grid::Grid& grid, const Case& run_case, state::Foam& foam,
                                std::vector<state::Event>& events);
 

@@ -28,12 +28,13 @@ FilmUpdate reconstruct_films(const grid::Grid& grid, const Case& run_case, const
                              state::Foam& foam);
 
 /// Makes reconstructed films those of a foam, with its liquid, and tells what changed. foam.phases are those
-/// after the reconstruction already, foam.films those before, with their topology.
+/// after the reconstruction already, foam.films those before, with their topology. Collective.
 FilmUpdate take_over(const parallel::Communicator& ranks, const Case& run_case, double h,
                      interface::Reconstruction reconstruction, const mesh::Topology& topology_before,
                      state::Foam& foam);
 
 /// Gives a foam, whose films have `topology_before`, another mesh of the same films, with its liquid.
+/// Collective.
 void replace_films(const parallel::Communicator& ranks, const Case& run_case, double h, mesh::FilmMesh films,
                    const mesh::Topology& topology, const mesh::Topology& topology_before, state::Foam& foam,
                    transport::TransferReport& report);

@@ -39,17 +39,13 @@ flow::StepLimit FoamMotion::choose_step() const {
 /// Vertices drift within films and along borders that are at rest: that does not count here.
 double FoamMotion::largest_normal_motion() const {
   const auto& films = run_.foam.films;
-  std::vector<Vec3> normal(films.position.size()), tangent(films.position.size());
-  for (int t = 0; t < films.n_triangles(); ++t)
-    for (int v : films.triangle[t].vertex) normal[v] += mesh::doubled_area_normal(films, t);
-  for (const auto& edge : topology_.border_edge) {
-    const Vec3 along = films.edge(edge.vertex[0], edge.vertex[1]);
-    for (int v : edge.vertex) tangent[v] += dot(tangent[v], along) < 0 ? -along : along;
-  }
+  const std::vector<Vec3> normal = mesh::doubled_vertex_normals(films),
+                          tangent = mesh::border_tangents(films, topology_);
   double largest = 0;
   for (std::size_t v = 0; v < run_.rearrange.reference.size(); ++v) {
     const Vec3 motion = films.position[v] - run_.rearrange.reference[v];
-    const Vec3 n = normalized(normal[v]), t = normalized(tangent[v]);
+    const Vec3 n = normalized(normal[v]);
+    const Vec3& t = tangent[v];
     double across = norm(motion);
     if (topology_.vertex_kind[v] == mesh::VertexKind::Film) across = std::abs(dot(motion, n));
     if (topology_.vertex_kind[v] == mesh::VertexKind::Border) across = norm(motion - dot(motion, t) * t);

@@ -21,7 +21,8 @@ class ViimMotion {
   ViimMotion(const grid::Grid& grid, const Case& run_case, const state::Foam& foam);
 
   /// Moves the films for dt [s] with the gas, whose velocity lies where the kernel takes it. The old mesh,
-  /// carried by the gas, brings its liquid to the new one. Collective.
+  /// carried by the gas, brings its liquid to the new one; `topology` is that of foam.films as they come in.
+  /// Collective.
   ViimStep move(state::Foam& foam, const mesh::Topology& topology, const grid::VectorField& velocity,
                 const grid::KernelCoupling& kernel, double dt);
 

@@ -24,7 +24,7 @@ struct FilmTransfer {
 ///
 /// A new lamella is linked to the old ones of its phase pair within `reach`; one without any such link, to
 /// old films within `reach` that share one of its phases and lie parallel to it (a bubble that split or
-/// vanished renames films).
+/// vanished renames films). Collective.
 FilmTransfer transfer_films(const parallel::Communicator& ranks, const LiquidMesh& from,
                             std::span<const double> old_volume, const LiquidMesh& to, double h,
                             const TransportParameters& parameters, TransferReport& report);

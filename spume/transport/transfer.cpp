@@ -53,6 +53,9 @@ state::FilmLiquid transfer(const parallel::Communicator& ranks, const mesh::Film
                            const mesh::FilmMesh& to, const mesh::Topology& to_topology, double h,
                            const TransportParameters& parameters, TransferReport& report) {
   expect_sizes(from_topology, liquid);
+  expects(from_topology.corner_dof.size() == from.triangle.size() &&
+              to_topology.corner_dof.size() == to.triangle.size(),
+          "topologies are those of the films");
   const LiquidMesh old_mesh = measure_liquid_mesh(from, from_topology, h);
   const LiquidMesh new_mesh = measure_liquid_mesh(to, to_topology, h);
   FilmTransfer films =

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "spume/base/contract.hpp"
 #include "spume/base/error.hpp"
 #include "spume/base/stage_times.hpp"
 #include "spume/drainage/drain.hpp"
@@ -55,8 +56,9 @@ std::optional<double> time_at(const std::vector<Cost>& best, double error) {
 }
 
 /// The power of 1/error with which the time grows, over the more accurate half (in the logarithm) of the best
-/// runs, two or more.
+/// runs, of which there must be two.
 double growth(const std::vector<Cost>& best) {
+  expects(best.size() >= 2, "a power needs two runs");
   const Cost& last = best.back();
   const double middle = std::sqrt(best.front().error * last.error);
   const auto rough = std::ranges::partition_point(best, [&](const Cost& run) { return run.error >= middle; });
@@ -94,6 +96,7 @@ void compare(Report& report, const std::string& what, const std::vector<Cost>& p
     const auto theirs = time_at(published, error), ours = time_at(positive, error);
     if (theirs && ours) ratios.emplace_back(error, *theirs / *ours);
   }
+  expects(!ratios.empty(), "the schemes have errors in common");
   for (const auto& [error, ratio] : ratios) {
     const std::string row = fmt::format("{}: time over ours at an error of {:.2g}", what, error);
     if (wanted && error == ratios.back().first)

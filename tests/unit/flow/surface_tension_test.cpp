@@ -83,20 +83,23 @@ TEST(SurfaceTension, TwoEqualBubblesInEquilibriumHaveThePressureOfTheirCapsAndLi
 
 /// Σ of what the forces on vertices inside films have along the film, and on borders along the border [N].
 double sliding(const mesh::FilmMesh& films, const mesh::Topology& topology, std::span<const Vec3> force) {
-  std::vector<Vec3> normal(force.size()), along(force.size());
-  for (int t = 0; t < films.n_triangles(); ++t)
-    for (int v : films.triangle[t].vertex) normal[v] += mesh::doubled_area_normal(films, t);
-  for (const auto& edge : topology.border_edge) {
-    const Vec3 direction = normalized(films.edge(edge.vertex[0], edge.vertex[1]));
-    for (int v : edge.vertex) along[v] += dot(along[v], direction) < 0 ? -direction : direction;
-  }
+  const std::vector<Vec3> normal = mesh::doubled_vertex_normals(films),
+                          tangent = mesh::border_tangents(films, topology);
   double sum = 0;
   for (std::size_t v = 0; v < force.size(); ++v) {
-    const Vec3 n = normalized(normal[v]), t = normalized(along[v]);
+    const Vec3 n = normalized(normal[v]);
     if (topology.vertex_kind[v] == mesh::VertexKind::Film) sum += norm(force[v] - dot(force[v], n) * n);
-    if (topology.vertex_kind[v] == mesh::VertexKind::Border) sum += std::abs(dot(force[v], t));
+    if (topology.vertex_kind[v] == mesh::VertexKind::Border) sum += std::abs(dot(force[v], tangent[v]));
   }
   return sum;
+}
+
+/// −2σ ∂A/∂x_v less the pressure part, nothing else taken out [N].
+std::vector<Vec3> whole_forces(const mesh::FilmMesh& films, const std::vector<double>& pressure) {
+  std::vector<Vec3> force = mesh::area_descent(films),
+                    of_pressure = mesh::weighted_volume_gradient(films, pressure);
+  for (std::size_t v = 0; v < force.size(); ++v) force[v] = 2 * sigma * force[v] + of_pressure[v];
+  return force;
 }
 
 TEST(SurfaceTension, DoesNotPullAlongFilmsOrBorders) {
@@ -104,12 +107,56 @@ TEST(SurfaceTension, DoesNotPullAlongFilmsOrBorders) {
   for (Vec3& x : films.position) x.y *= 0.8 + 0.1 * std::sin(2000 * x.x);
   const mesh::Topology topology = mesh::build_topology(films);
   const flow::FilmForces forces = flow::film_forces(films, topology, 3, sigma);
-  std::vector<Vec3> pull = mesh::area_descent(films),
-                    of_pressure = mesh::weighted_volume_gradient(films, forces.pressure);
-  for (std::size_t v = 0; v < pull.size(); ++v) pull[v] = 2 * sigma * pull[v] + of_pressure[v];
+  const std::vector<Vec3> pull = whole_forces(films, forces.pressure);
   ASSERT_GT(sliding(films, topology, pull), 0.01 * magnitude(pull));
   // What balances the sum of the forces, spread over all vertices, is left.
   EXPECT_LT(sliding(films, topology, forces.on_vertex), 0.1 * sliding(films, topology, pull));
+}
+
+TEST(SurfaceTension, ABorderOfThreeVerticesShrinksAsTheFilmThatItHoldsWould) {
+  // The last triangle between two bubbles that come apart, the bubbles two tetrahedra on it.
+  mesh::FilmMesh films;
+  const double r = radius;
+  films.position = {
+      {r, 0, 0}, {-r / 2, std::sqrt(0.75) * r, 0}, {-r / 2, -std::sqrt(0.75) * r, 0}, {0, 0, r}, {0, 0, -r}};
+  films.triangle.push_back(mesh::make_triangle(0, 1, 2, 1, 2));
+  for (int v = 0; v < 3; ++v) {
+    films.triangle.push_back(mesh::make_triangle((v + 1) % 3, v, 3, 0, 2));
+    films.triangle.push_back(mesh::make_triangle(v, (v + 1) % 3, 4, 0, 1));
+  }
+  const mesh::Topology topology = mesh::build_topology(films);
+  ASSERT_EQ(topology.n_borders(), 1);
+  ASSERT_EQ(topology.n_nonconforming_edges, 0);
+  const flow::FilmForces forces = flow::film_forces(films, topology, 3, sigma);
+  const std::vector<Vec3> pull = whole_forces(films, forces.pressure);
+  for (int v = 0; v < 3; ++v) {  // by symmetry all of it is normal to the ring
+    ASSERT_GT(norm(pull[v]), 0.1 * sigma * r);
+    EXPECT_LT(norm(forces.on_vertex[v] - pull[v]), 1e-12 * norm(pull[v]));
+  }
+}
+
+TEST(SurfaceTension, AFilmThroughTheWholeBoxKeepsTheForceOfItsPressure) {
+  constexpr int n = 8;
+  mesh::FilmMesh films;
+  films.domain = {{0, 0, 0}, {box_length, box_length, box_length}, {true, true, false}};
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const double x = i * box_length / n, y = j * box_length / n;
+      const double bump = i > 1 && i < 6 && j > 1 && j < 6 ? 0.1 : 0.0;
+      films.position.push_back({x, y, (0.5 + bump + 0.01 * ((i * 5 + j * 3) % 4)) * box_length});
+    }
+  const auto at = [](int i, int j) { return j % n * n + i % n; };
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      films.triangle.push_back(mesh::make_triangle(at(i, j), at(i + 1, j), at(i + 1, j + 1), 0, 1));
+      films.triangle.push_back(mesh::make_triangle(at(i, j), at(i + 1, j + 1), at(i, j + 1), 0, 1));
+    }
+  const mesh::Topology topology = mesh::build_topology(films);
+  ASSERT_EQ(topology.n_nonconforming_edges, 0);
+  const flow::FilmForces forces = flow::film_forces(films, topology, 2, sigma);
+  const Vec3 sum = total(whole_forces(films, forces.pressure));
+  ASSERT_GT(norm(sum), 1e-3 * sigma * box_length);
+  EXPECT_LT(norm(total(forces.on_vertex) - sum), 1e-12 * norm(sum));
 }
 
 TEST(SurfaceTension, FilmsPullThemselvesNowhere) {
@@ -117,7 +164,7 @@ TEST(SurfaceTension, FilmsPullThemselvesNowhere) {
   for (Vec3& x : films.position) x = {x.x, 0.8 * x.y, x.z + 0.1 * std::sin(3000 * x.x) * radius};
   const flow::FilmForces forces = flow::film_forces(films, mesh::build_topology(films), 2, sigma);
   EXPECT_GT(magnitude(forces.on_vertex), sigma * radius);
-  // Σ F_v of each part is zero in exact arithmetic: translation changes neither area nor volume.
+  // A translation changes neither area nor volume, and what is taken out of the forces is given back.
   EXPECT_LT(norm(total(forces.on_vertex)), 1e-13 * 2 * sigma * magnitude(mesh::area_descent(films)));
 }
 

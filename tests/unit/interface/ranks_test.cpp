@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "analytic_foams.hpp"
+#include "spume/interface/contour.hpp"
 #include "spume/interface/reconstruct.hpp"
 
 namespace spume::interface {
@@ -25,6 +26,33 @@ TEST(Reconstruct, DoesNotDependOnTheNumberOfRanks) {
     ASSERT_LT(norm(a.films.position[v] - b.films.position[v]), 1e-10 * h) << v;
   for (int t = 0; t < a.films.n_triangles(); ++t)
     ASSERT_EQ(a.films.triangle[t].vertex, b.films.triangle[t].vertex);
+
+  const mesh::Topology topology = mesh::build_topology(a.films);
+  EXPECT_EQ(a.topology.star_triangle, topology.star_triangle);
+  EXPECT_EQ(a.topology.corner_dof, topology.corner_dof);
+  EXPECT_EQ(a.topology.triangle_lamella, topology.triangle_lamella);
+}
+
+// Flat films along the axes, whose quadrilaterals in tetrahedra have two diagonals of one length, in a box
+// that is periodic: the layers of cubes of the last rank go on at the first.
+TEST(Contour, DoesNotDependOnTheNumberOfRanks) {
+  const grid::Box box = testing::cube_box(24);
+  const auto layer_of_two = [](mesh::Phase p, const Vec3& x) {
+    const double inside = 7.3 * h - (12 * h - std::abs(x.z));  // about the face of the box
+    if (p == 0) return -inside;
+    return inside - std::max(0.0, p == 1 ? x.x - 0.3 * h : 0.3 * h - x.x);
+  };
+  const auto potentials = testing::sampled(box, layer_of_two, 3);
+  const auto winners = find_winners(potentials);
+  const auto together = contour(parallel::Communicator::world(), potentials, winners),
+             alone = contour(parallel::Communicator::self(), potentials, winners);
+  ASSERT_GT(alone.n_triangles(), 2000);
+  ASSERT_EQ(together.n_vertices(), alone.n_vertices());
+  ASSERT_EQ(together.n_triangles(), alone.n_triangles());
+  for (int t = 0; t < alone.n_triangles(); ++t)
+    ASSERT_EQ(together.triangle[t].vertex, alone.triangle[t].vertex);
+  for (int v = 0; v < alone.n_vertices(); ++v)
+    ASSERT_EQ(norm(together.position[v] - alone.position[v]), 0.0) << v;
 }
 
 }  // namespace

@@ -62,6 +62,37 @@ TEST(Communicator, GathersPartsOfAnyLengthOnEveryRank) {
   for (int n = 0; n < offset.back(); ++n) EXPECT_EQ(values[n], 0.1 * n);
 }
 
+TEST(Communicator, JoinsPartsOfWhichSomeAreEmpty) {
+  struct Item {
+    char name;
+    double value;
+  };
+  const Communicator world = Communicator::world();
+  std::vector<Item> part;
+  if (world.rank() % 2 == 0) part = {{'a', world.rank() + 0.5}, {'b', -1.0}};
+  std::vector<int> offset;
+  const auto whole = world.joined(part, offset);
+  ASSERT_EQ(offset.size(), world.size() + 1u);
+  for (int r = 0; r < world.size(); ++r) {
+    ASSERT_EQ(offset[r + 1] - offset[r], r % 2 == 0 ? 2 : 0);
+    if (r % 2 != 0) continue;
+    EXPECT_EQ(whole[offset[r]].name, 'a');
+    EXPECT_EQ(whole[offset[r]].value, r + 0.5);
+    EXPECT_EQ(whole[offset[r] + 1].name, 'b');
+  }
+}
+
+TEST(Communicator, SharesAreEvenAndCoverAll) {
+  const Communicator world = Communicator::world();
+  const std::vector<int> share = world.shares(3);
+  EXPECT_EQ(share.front(), 0);
+  EXPECT_EQ(share.back(), 3);
+  for (int r = 0; r < world.size(); ++r) {
+    EXPECT_GE(share[r + 1] - share[r], 3 / world.size());
+    EXPECT_LE(share[r + 1] - share[r], 3 / world.size() + 1);
+  }
+}
+
 TEST(Communicator, OfOneRankReducesNothing) {
   const Communicator self = Communicator::self();
   EXPECT_EQ(self.size(), 1);

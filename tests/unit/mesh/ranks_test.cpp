@@ -1,0 +1,40 @@
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "spume/mesh/remesh.hpp"
+#include "spume/mesh/topology.hpp"
+#include "tests/support/film_shapes.hpp"
+
+namespace spume::mesh {
+namespace {
+
+constexpr double radius = 0.002;  // [m]
+
+// Of 40962 vertices, enough that ranks look at parts of the mesh side by side. On one rank this compares a
+// run with itself.
+TEST(Remesh, DoesNotDependOnTheNumberOfRanks) {
+  const FilmMesh fine = shapes::sphere({0, 0, 0}, radius, 6, 1);
+  const double edge = norm(fine.edge(fine.triangle[0].vertex[0], fine.triangle[0].vertex[1]));
+  ASSERT_GT(fine.n_vertices(), 16384);
+  const auto target = [edge](const Vec3& x) { return (2 + x.z / radius) * edge; };
+  const auto onto_sphere = [](const Vec3& x, const PhaseSet&) {
+    return std::optional(radius * normalized(x));
+  };
+  FilmMesh together = fine, alone = fine;
+  const auto report = remesh(together, target, onto_sphere, {}, parallel::Communicator::world());
+  const auto report_alone = remesh(alone, target, onto_sphere, {});
+  EXPECT_GT(report.n_collapsed, 10000);
+  EXPECT_EQ(report.n_collapsed, report_alone.n_collapsed);
+  EXPECT_EQ(report.n_flipped, report_alone.n_flipped);
+  ASSERT_EQ(together.n_vertices(), alone.n_vertices());
+  ASSERT_EQ(together.n_triangles(), alone.n_triangles());
+  for (int t = 0; t < alone.n_triangles(); ++t)
+    ASSERT_EQ(together.triangle[t].vertex, alone.triangle[t].vertex);
+  for (int v = 0; v < alone.n_vertices(); ++v)
+    ASSERT_EQ(norm(together.position[v] - alone.position[v]), 0.0) << v;
+  EXPECT_EQ(build_topology(together).n_nonconforming_edges, 0);
+}
+
+}  // namespace
+}  // namespace spume::mesh
