@@ -8,10 +8,6 @@
 namespace spume::mesh {
 
 EdgeTable build_edges(const FilmMesh& mesh) {
-  return build_edges(mesh, std::vector<char>(mesh.n_vertices(), 1));
-}
-
-EdgeTable build_edges(const FilmMesh& mesh, const std::vector<char>& counts) {
   struct Side {
     int high;
     EdgeUse use;
@@ -19,18 +15,13 @@ EdgeTable build_edges(const FilmMesh& mesh, const std::vector<char>& counts) {
   // Buckets by the lower vertex, in triangle order; then each, of a few sides, is sorted by the higher
   // vertex.
   std::vector<int> offset(mesh.n_vertices() + 1, 0);
-  const auto is_counted = [&](const FilmTriangle& t, int c) {
-    return counts[t.vertex[c]] && counts[t.vertex[(c + 1) % 3]];
-  };
   for (const FilmTriangle& t : mesh.triangle)
-    for (int c = 0; c < 3; ++c)
-      if (is_counted(t, c)) ++offset[std::min(t.vertex[c], t.vertex[(c + 1) % 3]) + 1];
+    for (int c = 0; c < 3; ++c) ++offset[std::min(t.vertex[c], t.vertex[(c + 1) % 3]) + 1];
   std::partial_sum(offset.begin(), offset.end(), offset.begin());
   std::vector<Side> side(offset.back());
   std::vector<int> end(offset.begin(), offset.end() - 1);
   for (int t = 0; t < mesh.n_triangles(); ++t)
     for (int c = 0; c < 3; ++c) {
-      if (!is_counted(mesh.triangle[t], c)) continue;
       const auto [low, high] = std::minmax(mesh.triangle[t].vertex[c], mesh.triangle[t].vertex[(c + 1) % 3]);
       side[end[low]++] = {high, {t, c}};
     }

@@ -32,8 +32,6 @@ struct EdgeTable {
   std::vector<EdgeUse> use;
 };
 EdgeTable build_edges(const FilmMesh& mesh);
-/// The same of the edges whose both ends count.
-EdgeTable build_edges(const FilmMesh& mesh, const std::vector<char>& counts);
 
 /// Triangles at each vertex, in increasing order; those that may change.
 std::vector<std::vector<int>> vertex_stars(const FilmMesh& mesh);

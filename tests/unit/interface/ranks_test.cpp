@@ -3,6 +3,7 @@
 #include "analytic_foams.hpp"
 #include "spume/interface/contour.hpp"
 #include "spume/interface/reconstruct.hpp"
+#include "tests/support/same_mesh.hpp"
 
 namespace spume::interface {
 namespace {
@@ -47,12 +48,7 @@ TEST(Contour, DoesNotDependOnTheNumberOfRanks) {
   const auto together = contour(parallel::Communicator::world(), potentials, winners),
              alone = contour(parallel::Communicator::self(), potentials, winners);
   ASSERT_GT(alone.n_triangles(), 2000);
-  ASSERT_EQ(together.n_vertices(), alone.n_vertices());
-  ASSERT_EQ(together.n_triangles(), alone.n_triangles());
-  for (int t = 0; t < alone.n_triangles(); ++t)
-    ASSERT_EQ(together.triangle[t].vertex, alone.triangle[t].vertex);
-  for (int v = 0; v < alone.n_vertices(); ++v)
-    ASSERT_EQ(norm(together.position[v] - alone.position[v]), 0.0) << v;
+  ASSERT_NO_FATAL_FAILURE(spume::testing::assert_same_mesh(together, alone));
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "tests/unit/verification/half_period.hpp"
+
 namespace spume::verification {
 namespace {
 
@@ -40,14 +42,7 @@ TEST(BubbleWave, RingsDownAsTheNormalMode) {
   const WaveMaterials of{1, 0.01, 1};
   const BubbleWave wave(2, 1, of);
   const Decay mode = bubble_mode(2, 1, of);
-  const auto zero_after = [&](double t) {
-    const double step = 1e-3 / mode.omega;
-    while (wave.amplitude(t) * wave.amplitude(t + step) > 0) t += step;
-    const double a = wave.amplitude(t), b = wave.amplitude(t + step);
-    return t + step * a / (a - b);
-  };
-  const double first = zero_after(6 / mode.omega), second = zero_after(first + 0.1 / mode.omega);
-  EXPECT_NEAR((second - first) * mode.omega / std::numbers::pi, 1, 0.01);
+  EXPECT_NEAR(half_period(wave, mode.omega) * mode.omega / std::numbers::pi, 1, 0.01);
 }
 
 /// Stretch and amplitude of mode n at time t for ρ = T = R = a0 = 1 by finite differences of w = r u_r,

@@ -6,6 +6,8 @@
 #include <functional>
 #include <numbers>
 
+#include "tests/unit/verification/half_period.hpp"
+
 namespace spume::verification {
 namespace {
 
@@ -98,14 +100,7 @@ TEST(PlanarWave, starts_at_rest_and_rings_down_as_the_normal_mode) {
   EXPECT_NEAR(wave.amplitude(t0), 1 - 0.5e-6, 1e-7);
   // Zeros of the oscillation, late enough for the memory of the start to be gone, are half a period apart.
   const Decay mode = planar_mode(k, of);
-  const auto zero_after = [&](double t) {
-    const double step = 1e-3 / mode.omega;
-    while (wave.amplitude(t) * wave.amplitude(t + step) > 0) t += step;
-    const double a = wave.amplitude(t), b = wave.amplitude(t + step);
-    return t + step * a / (a - b);
-  };
-  const double first = zero_after(6 / mode.omega), second = zero_after(first + 0.1 / mode.omega);
-  EXPECT_NEAR((second - first) * mode.omega / pi, 1, 0.01);
+  EXPECT_NEAR(half_period(wave, mode.omega) * mode.omega / pi, 1, 0.01);
 }
 
 }  // namespace
