@@ -283,7 +283,7 @@ class Rooms {
 
   struct Room {
     Room(const grid::Box& box, double variance)
-        : grid(parallel::Communicator(MPI_COMM_SELF), box), filter(indicator_filter(grid, variance)) {}
+        : grid(parallel::Communicator::self(), box), filter(indicator_filter(grid, variance)) {}
     grid::Grid grid;
     grid::SpectralFilter filter;
   };

@@ -149,10 +149,6 @@ void move_vertices(const ImplicitStep& step, const std::vector<Vec3>& push, mesh
 
 }  // namespace
 
-RelaxStepReport relax_step(mesh::FilmMesh& films, const state::Phases& phases, double tau) {
-  return relax_step(films, mesh::build_topology(films), phases, tau);
-}
-
 RelaxStepReport relax_step(mesh::FilmMesh& films, const mesh::Topology& topology, const state::Phases& phases,
                            double tau, int volume_iterations) {
   RelaxStepReport report{};

@@ -16,11 +16,9 @@ struct RelaxStepReport {
 /// One step of implicit, volume-constrained curvature flow of the film mesh, without gas:
 ///   (M/τ + L) x' = (M/τ) x + Σ_i P_i ∂V_i/∂x,
 /// L the cotangent matrix summed over all films, M the lumped area, P_i the film pressures a unit of tension,
-/// then volumes restored on the mesh. τ [m²] is the time in units where the film tension over the friction is
+/// then volumes restored on the mesh, in so many iterations of mesh::restore_volumes(). `topology` is that of
+/// the films, which a step keeps. τ [m²] is the time in units where the film tension over the friction is
 /// one.
-RelaxStepReport relax_step(mesh::FilmMesh& films, const state::Phases& phases, double tau);
-/// The same for films whose topology, which a step keeps, is known, with so many iterations of
-/// mesh::restore_volumes().
 RelaxStepReport relax_step(mesh::FilmMesh& films, const mesh::Topology& topology, const state::Phases& phases,
                            double tau, int volume_iterations = 2);
 
