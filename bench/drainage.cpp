@@ -2,8 +2,9 @@
 // wall and processor time, steps, and what each part of the steps takes. The accepted steps of one run are
 // repeated part by part for the shares, each from where it started, on the equations of the program. On
 // several ranks, processor time and shares are those of the first, waiting included. With --lamellae, the
-// time of single lamellae by their size, from which lamella_cost() has its power. Usage:
-// [mpirun -n 2] bench_drainage [--triangles 20000 200000] [--lamellae]
+// time of single lamellae by their size, from which lamella_cost() has its power; with --borders, that of
+// borders by themselves in steps of either scheme. Usage:
+// [mpirun -n 2] bench_drainage [--triangles 20000 200000] [--lamellae] [--borders]
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
@@ -19,6 +20,7 @@
 #include "spume/parallel/session.hpp"
 #include "spume/verification/drainage_runs.hpp"
 #include "spume/verification/film_networks.hpp"
+#include "spume/verification/four_borders.hpp"
 #include "spume/verification/four_bubble_films.hpp"
 
 namespace {
@@ -98,8 +100,7 @@ StageTimes shares(state::FilmNetwork network, const std::vector<Step>& steps) {
     network.border_area = border_area;
     y = equations.read(network);
     times.restart();
-    equations.rates(y, k1);
-    equations.linearise(y);
+    equations.linearise(y, k1);
     times.lap("assembly");
     equations.factorise(gamma * dt);
     times.lap("factorisation");
@@ -131,8 +132,7 @@ void time_lamellae() {
     const int repetitions = std::max(3, static_cast<int>(1e5 / unknowns));
     const double begun = processor_time();
     for (int n = 0; n < repetitions; ++n) {
-      equations.rates(y, k);
-      equations.linearise(y);
+      equations.linearise(y, k);
       equations.factorise(1);
       equations.solve(k);
       equations.rates(y, k);
@@ -148,6 +148,17 @@ void time_lamellae() {
   }
 }
 
+/// Steps of either scheme on four borders between two junctions, without their sources.
+void time_borders() {
+  for (int n = 8; n <= 2048; n *= 2) {
+    const int steps = std::max(n, (1 << 17) / n);
+    const double positive = verification::positive_border_error(n, steps).seconds / steps;
+    const double published = verification::published_border_error(n, 4 * steps).seconds / (4 * steps);
+    std::printf("four borders of %4d edges: %.3e s a step, published scheme %.3e s, ratio %.2f\n", n,
+                positive, published, positive / published);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -157,7 +168,13 @@ int main(int argc, char** argv) {
   program.add_option("--triangles", triangles, "of the meshes, about");
   bool lamellae = false;
   program.add_flag("--lamellae", lamellae, "time single lamellae instead");
+  bool borders = false;
+  program.add_flag("--borders", borders, "time borders by themselves instead, in steps of both schemes");
   CLI11_PARSE(program, argc, argv);
+  if (borders) {
+    time_borders();
+    return 0;
+  }
   if (lamellae) {
     time_lamellae();
     return 0;

@@ -22,14 +22,14 @@ DrainageEquations::DrainageEquations(const state::FilmNetwork& network, const st
       fem::SparseLu lu(jacobian.column_offset(), jacobian.row());
       lamellae_.push_back({std::move(domain), std::move(jacobian), std::move(lu), zero, zero, zero});
     }
-    build_border_pattern();
+    build_border_system();
   });
   shares_.exchange(film_area_);
 }
 
 DrainageEquations::DrainageEquations(BorderNetwork borders, const state::Materials& materials)
     : materials_(materials), shares_({}, parallel::Communicator::self()), borders_(std::move(borders)) {
-  build_border_pattern();
+  build_border_system();
 }
 
 Unknowns DrainageEquations::read(const state::FilmNetwork& network) const {
@@ -56,30 +56,35 @@ void DrainageEquations::gather(const Unknowns& y, LamellaSystem& lamella) const 
   lamella_potential(lamella.domain, lamella.eta, materials_, lamella.potential);
 }
 
-void DrainageEquations::rates(const Unknowns& y, Unknowns& rate) {
-  evaluate_suction(sites_, y.film, y.border, materials_, suction_);
+void DrainageEquations::evaluate_film_rates(const Unknowns& y, const Suction& suction, Unknowns& rate) {
   rate.film.assign(y.film.size(), 0.0);
   for (LamellaSystem& lamella : lamellae_) {
     gather(y, lamella);
     std::fill(lamella.balance.begin(), lamella.balance.end(), 0.0);
     add_lamella_flow(lamella.domain, lamella.eta, lamella.potential, lamella.balance);
-    add_boundary_outflow(lamella.domain, suction_.outflow, lamella.balance);
+    add_boundary_outflow(lamella.domain, suction.outflow, lamella.balance);
     for (int i = 0; i < lamella.domain.size(); ++i)
       rate.film[lamella.domain.film_dof[i]] = lamella.balance[i];
   }
+}
+
+void DrainageEquations::rates(const Unknowns& y, Unknowns& rate) {
+  evaluate_suction(sites_, y.film, y.border, materials_, suction_);
+  evaluate_film_rates(y, suction_, rate);
   rate.border.assign(y.border.size(), 0.0);
   add_border_flow(borders_, y.border, materials_, rate.border);
   add_border_source(sites_, suction_.outflow, rate.border);
 }
 
-void DrainageEquations::linearise(const Unknowns& y) {
+void DrainageEquations::linearise(const Unknowns& y, Unknowns& rate) {
   evaluate_suction(sites_, y.film, y.border, materials_, linearised_suction_);
-  for (LamellaSystem& lamella : lamellae_) {
-    gather(y, lamella);
+  evaluate_film_rates(y, linearised_suction_, rate);
+  for (LamellaSystem& lamella : lamellae_)
     lamella.jacobian.evaluate(lamella.domain, lamella.eta, lamella.potential, materials_,
                               linearised_suction_.slope);
-  }
-  linearise_borders(y);
+  rate.border.assign(y.border.size(), 0.0);
+  linearise_border_flow(borders_, y.border, materials_, rate.border, border_slope_);
+  add_border_source(sites_, linearised_suction_.outflow, rate.border);
 }
 
 bool DrainageEquations::factorise_lamella(LamellaSystem& lamella) {
@@ -128,73 +133,42 @@ void DrainageEquations::solve(Unknowns& b) {
     for (LamellaSystem& lamella : lamellae_) solve_lamella(lamella, b);
   });
   shares_.exchange(b.film);
-  if (borders_.size() > 0) solve_borders(b);
+  if (border_lu_) solve_borders(b);
 }
 
 void DrainageEquations::solve_borders(Unknowns& b) {
   for (std::size_t n = 0; n < sites_.size(); ++n)
     b.border[sites_[n].border_unknown] += s_ * linearised_suction_.slope[n] * b.film[sites_[n].film_dof];
   const double gained = std::accumulate(b.border.begin(), b.border.end(), 0.0);
-  border_system_.lu.front().solve(b.border);
+  border_lu_->solve(b.border);
   const double found = std::inner_product(b.border.begin(), b.border.end(), borders_.length.begin(), 0.0);
-  const double missing =
-      (gained - found) / std::accumulate(borders_.length.begin(), borders_.length.end(), 0.0);
+  const double missing = (gained - found) / total_border_length_;
   for (double& k : b.border) k += missing;
 }
 
-void DrainageEquations::build_border_pattern() {
-  const int n = borders_.size();
-  if (n == 0) return;
-  std::vector<std::vector<int>> rows(n);
-  for (int u = 0; u < n; ++u) rows[u].push_back(u);
-  for (const BorderLink& link : borders_.link) {
-    rows[link.unknown[0]].push_back(link.unknown[1]);
-    rows[link.unknown[1]].push_back(link.unknown[0]);
-  }
-  BorderSystem& system = border_system_;
-  system.column_offset.push_back(0);
-  for (auto& column : rows) {
-    std::sort(column.begin(), column.end());
-    column.erase(std::unique(column.begin(), column.end()), column.end());
-    system.row.insert(system.row.end(), column.begin(), column.end());
-    system.column_offset.push_back(static_cast<int>(system.row.size()));
-  }
-  const auto position = [&](int row, int column) {
-    const auto first = system.row.begin() + system.column_offset[column];
-    return static_cast<int>(
-        std::lower_bound(first, system.row.begin() + system.column_offset[column + 1], row) -
-        system.row.begin());
-  };
-  for (int u = 0; u < n; ++u) system.diagonal.push_back(position(u, u));
-  for (const BorderLink& link : borders_.link) {
-    const auto [from, to] = link.unknown;
-    system.off_diagonal.push_back({position(from, to), position(to, from)});
-  }
-  system.jacobian.resize(system.row.size());
-  system.lu.emplace_back(system.column_offset, system.row);
+void DrainageEquations::build_border_system() {
+  if (borders_.size() == 0) return;
+  std::vector<std::array<int, 2>> coupled;
+  for (const BorderLink& link : borders_.link) coupled.push_back(link.unknown);
+  border_slope_.resize(coupled.size());
+  border_coupling_.resize(coupled.size());
+  border_diagonal_.resize(borders_.size());
+  border_lu_.emplace(borders_.size(), coupled);
+  total_border_length_ = std::accumulate(borders_.length.begin(), borders_.length.end(), 0.0);
 }
 
-void DrainageEquations::linearise_borders(const Unknowns& y) {
-  auto& jacobian = border_system_.jacobian;
-  std::fill(jacobian.begin(), jacobian.end(), 0.0);
-  for (std::size_t n = 0; n < borders_.link.size(); ++n) {
-    const BorderLink& link = borders_.link[n];
-    const auto [from, to] = link.unknown;
-    const BorderFlux flux = border_flux(y.border[from], y.border[to], link, materials_);
-    jacobian[border_system_.diagonal[from]] -= flux.slope[0];
-    jacobian[border_system_.off_diagonal[n][0]] -= flux.slope[1];
-    jacobian[border_system_.off_diagonal[n][1]] += flux.slope[0];
-    jacobian[border_system_.diagonal[to]] += flux.slope[1];
-  }
-}
-
+/// What flows along an edge is taken from its first unknown and given to its second.
 bool DrainageEquations::factorise_borders(double s) {
-  if (borders_.size() == 0) return true;
-  const auto& jacobian = border_system_.jacobian;
-  matrix_.resize(jacobian.size());
-  std::transform(jacobian.begin(), jacobian.end(), matrix_.begin(), [s](double j) { return -s * j; });
-  for (int u = 0; u < borders_.size(); ++u) matrix_[border_system_.diagonal[u]] += borders_.length[u];
-  return border_system_.lu.front().factorise(matrix_);
+  if (!border_lu_) return true;
+  std::copy(borders_.length.begin(), borders_.length.end(), border_diagonal_.begin());
+  for (std::size_t n = 0; n < borders_.link.size(); ++n) {
+    const auto [from, to] = borders_.link[n].unknown;
+    const double by_from = s * border_slope_[n][0], by_to = s * border_slope_[n][1];
+    border_diagonal_[from] += by_from;
+    border_diagonal_[to] -= by_to;
+    border_coupling_[n] = {by_to, -by_from};
+  }
+  return border_lu_->factorise(border_diagonal_, border_coupling_);
 }
 
 }  // namespace spume::drainage

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "spume/drainage/lamella_shares.hpp"
 #include "spume/drainage/plateau_border.hpp"
 #include "spume/drainage/suction.hpp"
+#include "spume/fem/network_lu.hpp"
 #include "spume/fem/sparse_lu.hpp"
 #include "spume/parallel/communicator.hpp"
 #include "spume/state/film_network.hpp"
@@ -53,8 +55,8 @@ class DrainageEquations {
   /// are zero.
   void rates(const Unknowns& y, Unknowns& rate);
 
-  /// Evaluates J at y.
-  void linearise(const Unknowns& y);
+  /// The same rates, and J at y.
+  void linearise(const Unknowns& y, Unknowns& rate);
   /// Factorises M − s J, s [s], of the last linearise(). False if that failed on some rank. Collective.
   bool factorise(double s);
   /// Replaces b by the solution of (M − s J) k = b: all lamellae, then the borders with what those films
@@ -68,20 +70,13 @@ class DrainageEquations {
     fem::SparseLu lu;
     std::vector<double> eta, potential, balance;  ///< of the local unknowns
   };
-  struct BorderSystem {
-    std::vector<int> column_offset, row;
-    std::vector<int> diagonal;                     ///< position of each J_ii
-    std::vector<std::array<int, 2>> off_diagonal;  ///< of each link: position of J_01 and J_10
-    std::vector<double> jacobian;
-    std::vector<fem::SparseLu> lu;  ///< none if there are no borders
-  };
-
   void gather(const Unknowns& y, LamellaSystem& lamella) const;
+  /// Leaves η and the potential with the lamellae.
+  void evaluate_film_rates(const Unknowns& y, const Suction& suction, Unknowns& rate);
   bool factorise_lamella(LamellaSystem& lamella);
   void solve_lamella(LamellaSystem& lamella, Unknowns& b) const;
   void solve_borders(Unknowns& b);
-  void build_border_pattern();
-  void linearise_borders(const Unknowns& y);
+  void build_border_system();
   bool factorise_borders(double s);
 
   state::Materials materials_;
@@ -89,8 +84,12 @@ class DrainageEquations {
   BorderNetwork borders_;
   std::vector<SuctionSite> sites_;
   std::vector<double> film_area_;
-  std::vector<LamellaSystem> lamellae_;  ///< of this rank
-  BorderSystem border_system_;
+  std::vector<LamellaSystem> lamellae_;                 ///< of this rank
+  std::vector<std::array<double, 2>> border_slope_;     ///< of the flux along each edge, by its two ends
+  std::vector<double> border_diagonal_;                 ///< of the matrix of the borders
+  std::vector<std::array<double, 2>> border_coupling_;  ///< its entries 01 and 10 for each edge
+  std::optional<fem::NetworkLu> border_lu_;             ///< none if there are no borders
+  double total_border_length_ = 0;
   Suction suction_;  ///< of the last rates()
   Suction linearised_suction_;
   double s_ = 0;                ///< of the last factorise()

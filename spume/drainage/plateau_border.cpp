@@ -37,24 +37,40 @@ BorderFlux border_flux(double a, double b, const BorderLink& link, const state::
   const double mu = materials.liquid.viscosity;                      // μ [Pa s]
   const double rho = materials.liquid.density;                       // ρ [kg/m³]
   const double conductance = border_flow / (3 * mu * link.length);
-  const double root = std::sqrt(a * b);
-  const double mobility = root * (a + root + b);        // 3 × that of the edge
-  const auto slope = [root](double at, double other) {  // of 3 × the mobility, by one end
-    return 0.5 * other * (at + other) / root + root + other;
-  };
-  const double drive = 2 * c1 * (1 / std::sqrt(b) - 1 / std::sqrt(a)) + rho * link.descent;
+  const double root_a = std::sqrt(a), root_b = std::sqrt(b);
+  const double inverse_a = 1 / root_a, inverse_b = 1 / root_b;
+  const double root = root_a * root_b;
+  const double mobility = root * (a + root + b);  // 3 × that of the edge
+  // Of 3 × the mobility, by a and by b.
+  const double slope_a = 0.5 * (a + b) * root_b * inverse_a + root + b;
+  const double slope_b = 0.5 * (a + b) * root_a * inverse_b + root + a;
+  const double drive = 2 * c1 * (inverse_b - inverse_a) + rho * link.descent;
   return {conductance * mobility * drive,
-          {conductance * (slope(a, b) * drive + mobility * c1 / (a * std::sqrt(a))),
-           conductance * (slope(b, a) * drive - mobility * c1 / (b * std::sqrt(b)))}};
+          {conductance * (slope_a * drive + mobility * c1 * inverse_a * inverse_a * inverse_a),
+           conductance * (slope_b * drive - mobility * c1 * inverse_b * inverse_b * inverse_b)}};
 }
 
 void add_border_flow(const BorderNetwork& borders, std::span<const double> lambda,
                      const state::Materials& materials, std::span<double> rate) {
+  const state::Materials own = materials;  // which writing rates cannot change
   for (const auto& link : borders.link) {
     const auto [from, to] = link.unknown;
-    const double flow = border_flux(lambda[from], lambda[to], link, materials).value;
+    const double flow = border_flux(lambda[from], lambda[to], link, own).value;
     rate[from] -= flow;
     rate[to] += flow;
+  }
+}
+
+void linearise_border_flow(const BorderNetwork& borders, std::span<const double> lambda,
+                           const state::Materials& materials, std::span<double> rate,
+                           std::span<std::array<double, 2>> slope) {
+  const state::Materials own = materials;
+  for (std::size_t n = 0; n < borders.link.size(); ++n) {
+    const auto [from, to] = borders.link[n].unknown;
+    const BorderFlux flux = border_flux(lambda[from], lambda[to], borders.link[n], own);
+    rate[from] -= flux.value;
+    rate[to] += flux.value;
+    slope[n] = flux.slope;
   }
 }
 

@@ -52,4 +52,9 @@ BorderFlux border_flux(double a, double b, const BorderLink& link, const state::
 void add_border_flow(const BorderNetwork& borders, std::span<const double> lambda,
                      const state::Materials& materials, std::span<double> rate);
 
+/// The same, and the slopes of the flux along each edge [m/s].
+void linearise_border_flow(const BorderNetwork& borders, std::span<const double> lambda,
+                           const state::Materials& materials, std::span<double> rate,
+                           std::span<std::array<double, 2>> slope);
+
 }  // namespace spume::drainage

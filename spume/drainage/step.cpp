@@ -11,6 +11,11 @@
 namespace spume::drainage {
 namespace {
 
+void add(const Unknowns& gain, Unknowns& rate) {
+  for (std::size_t i = 0; i < gain.film.size(); ++i) rate.film[i] += gain.film[i];
+  for (std::size_t i = 0; i < gain.border.size(); ++i) rate.border[i] += gain.border[i];
+}
+
 /// right −= factor M k
 void subtract_mass(std::span<const double> mass, double factor, std::span<const double> k,
                    std::span<double> right) {
@@ -28,15 +33,13 @@ int first_not_positive(std::span<const double> values) {
 
 void Stepper::start(const Unknowns& y, const Unknowns* gain) {
   start_ = y;
-  evaluate_rates(start_, gain, initial_rates_);
-  equations_.linearise(start_);
+  equations_.linearise(start_, initial_rates_);
+  if (gain != nullptr) add(*gain, initial_rates_);
 }
 
 void Stepper::evaluate_rates(const Unknowns& y, const Unknowns* gain, Unknowns& rate) {
   equations_.rates(y, rate);
-  if (gain == nullptr) return;
-  for (std::size_t i = 0; i < gain->film.size(); ++i) rate.film[i] += gain->film[i];
-  for (std::size_t i = 0; i < gain->border.size(); ++i) rate.border[i] += gain->border[i];
+  if (gain != nullptr) add(*gain, rate);
 }
 
 const Trial& Stepper::attempt(Method method, double dt, const Unknowns* gain) {

@@ -138,13 +138,13 @@ TEST(Drain, as_published_fails_on_all_ranks_where_the_film_of_one_runs_dry) {
 TEST(DrainageEquations, tell_all_ranks_of_a_matrix_that_one_cannot_factorise) {
   const auto network = corner();
   DrainageEquations equations(network, soap, Communicator::world());
-  Unknowns y = equations.read(network);
-  equations.linearise(y);
+  Unknowns y = equations.read(network), rate;
+  equations.linearise(y, rate);
   EXPECT_TRUE(equations.factorise(1e-3));
   for (std::size_t d = 0; d < y.film.size(); ++d)
     if (network.topology.film_dof[d].lamella == network.topology.n_lamellae() - 1)
       y.film[d] = std::numeric_limits<double>::infinity();
-  equations.linearise(y);
+  equations.linearise(y, rate);
   EXPECT_FALSE(equations.factorise(1e-3));
 }
 
