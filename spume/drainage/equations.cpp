@@ -72,7 +72,8 @@ void DrainageEquations::rates(const Unknowns& y, Unknowns& rate) {
   evaluate_suction(sites_, y.film, y.border, materials_, suction_);
   evaluate_film_rates(y, suction_, rate);
   rate.border.assign(y.border.size(), 0.0);
-  add_border_flow(borders_, y.border, materials_, rate.border);
+  evaluate_border_roots(y.border, border_root_);
+  add_border_flow(borders_, border_root_, materials_, rate.border);
   add_border_source(sites_, suction_.outflow, rate.border);
 }
 
@@ -83,7 +84,8 @@ void DrainageEquations::linearise(const Unknowns& y, Unknowns& rate) {
     lamella.jacobian.evaluate(lamella.domain, lamella.eta, lamella.potential, materials_,
                               linearised_suction_.slope);
   rate.border.assign(y.border.size(), 0.0);
-  linearise_border_flow(borders_, y.border, materials_, rate.border, border_slope_);
+  evaluate_border_roots(y.border, border_root_);
+  linearise_border_flow(borders_, border_root_, materials_, rate.border, border_slope_);
   add_border_source(sites_, linearised_suction_.outflow, rate.border);
 }
 

@@ -84,7 +84,8 @@ class DrainageEquations {
   BorderNetwork borders_;
   std::vector<SuctionSite> sites_;
   std::vector<double> film_area_;
-  std::vector<LamellaSystem> lamellae_;                 ///< of this rank
+  std::vector<LamellaSystem> lamellae_;  ///< of this rank
+  std::vector<BorderRoot> border_root_;
   std::vector<std::array<double, 2>> border_slope_;     ///< of the flux along each edge, by its two ends
   std::vector<double> border_diagonal_;                 ///< of the matrix of the borders
   std::vector<std::array<double, 2>> border_coupling_;  ///< its entries 01 and 10 for each edge

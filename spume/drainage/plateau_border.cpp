@@ -1,5 +1,6 @@
 #include "spume/drainage/plateau_border.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "spume/drainage/constants.hpp"
@@ -32,42 +33,51 @@ BorderNetwork build_border_network(const state::FilmNetwork& network, const Vec3
   return borders;
 }
 
-BorderFlux border_flux(double a, double b, const BorderLink& link, const state::Materials& materials) {
+BorderRoot border_root(double lambda) {
+  const double root = std::sqrt(lambda);
+  return {root, 1 / root};
+}
+
+void evaluate_border_roots(std::span<const double> lambda, std::vector<BorderRoot>& result) {
+  result.resize(lambda.size());
+  std::transform(lambda.begin(), lambda.end(), result.begin(), border_root);
+}
+
+BorderFlux border_flux(const BorderRoot& a, const BorderRoot& b, const BorderLink& link,
+                       const state::Materials& materials) {
   const double c1 = border_tension(materials.film.surface_tension);  // C₁ [N/m]
   const double mu = materials.liquid.viscosity;                      // μ [Pa s]
   const double rho = materials.liquid.density;                       // ρ [kg/m³]
   const double conductance = border_flow / (3 * mu * link.length);
-  const double root_a = std::sqrt(a), root_b = std::sqrt(b);
-  const double inverse_a = 1 / root_a, inverse_b = 1 / root_b;
-  const double root = root_a * root_b;
-  const double mobility = root * (a + root + b);  // 3 × that of the edge
-  // Of 3 × the mobility, by a and by b.
-  const double slope_a = 0.5 * (a + b) * root_b * inverse_a + root + b;
-  const double slope_b = 0.5 * (a + b) * root_a * inverse_b + root + a;
-  const double drive = 2 * c1 * (inverse_b - inverse_a) + rho * link.descent;
+  const double area_a = a.root * a.root, area_b = b.root * b.root, between = a.root * b.root;
+  const double mobility = between * (area_a + between + area_b);  // 3 × that of the edge
+  const double mean = 0.5 * (area_a + area_b);
+  const double slope_a = mean * b.root * a.inverse + between + area_b;  // of 3 × the mobility, by a
+  const double slope_b = mean * a.root * b.inverse + between + area_a;
+  const double drive = 2 * c1 * (b.inverse - a.inverse) + rho * link.descent;
   return {conductance * mobility * drive,
-          {conductance * (slope_a * drive + mobility * c1 * inverse_a * inverse_a * inverse_a),
-           conductance * (slope_b * drive - mobility * c1 * inverse_b * inverse_b * inverse_b)}};
+          {conductance * (slope_a * drive + mobility * c1 * a.inverse * a.inverse * a.inverse),
+           conductance * (slope_b * drive - mobility * c1 * b.inverse * b.inverse * b.inverse)}};
 }
 
-void add_border_flow(const BorderNetwork& borders, std::span<const double> lambda,
+void add_border_flow(const BorderNetwork& borders, std::span<const BorderRoot> root,
                      const state::Materials& materials, std::span<double> rate) {
   const state::Materials own = materials;  // which writing rates cannot change
   for (const auto& link : borders.link) {
     const auto [from, to] = link.unknown;
-    const double flow = border_flux(lambda[from], lambda[to], link, own).value;
+    const double flow = border_flux(root[from], root[to], link, own).value;
     rate[from] -= flow;
     rate[to] += flow;
   }
 }
 
-void linearise_border_flow(const BorderNetwork& borders, std::span<const double> lambda,
+void linearise_border_flow(const BorderNetwork& borders, std::span<const BorderRoot> root,
                            const state::Materials& materials, std::span<double> rate,
                            std::span<std::array<double, 2>> slope) {
   const state::Materials own = materials;
   for (std::size_t n = 0; n < borders.link.size(); ++n) {
     const auto [from, to] = borders.link[n].unknown;
-    const BorderFlux flux = border_flux(lambda[from], lambda[to], borders.link[n], own);
+    const BorderFlux flux = border_flux(root[from], root[to], borders.link[n], own);
     rate[from] -= flux.value;
     rate[to] += flux.value;
     slope[n] = flux.slope;

@@ -140,7 +140,7 @@ bool NetworkLu::eliminate(const Chain& chain, std::span<const double> diagonal, 
     const Row row{inverse, next * inverse, start * inverse, below * inverse, from_start * inverse};
     row_[k] = row;
     at_start += row.to_start * start;
-    taken = row.to_next * next;
+    taken = below * next * inverse;
     start *= -row.to_next;
     from_start = -row.to_start * next;
   }
