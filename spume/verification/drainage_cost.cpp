@@ -106,8 +106,10 @@ void compare(Report& report, const std::string& what, const std::vector<Cost>& p
   }
 }
 
+/// Runs three times, the quickest counted: whatever else the machine does disturbs short ones.
 Cost border_cost(BorderError run(int n, int steps), int n, int steps) {
-  const BorderError error = run(n, steps);
+  BorderError error = run(n, steps);
+  for (int again = 0; again < 2; ++again) error.seconds = std::min(error.seconds, run(n, steps).seconds);
   return {n, steps, error.largest, error.seconds};
 }
 
