@@ -46,7 +46,7 @@ bool same_phases(const FilmTriangle& a, const FilmTriangle& b) {
   return a.phase_a == b.phase_a && a.phase_b == b.phase_b;
 }
 
-void find_phases_and_stars(const FilmMesh& mesh, Topology& topology) {
+void find_phases_and_stars(const FilmMesh& mesh, VertexTopology& topology) {
   const int n = mesh.n_vertices();
   topology.vertex_phases.assign(n, {});
   topology.star_offset.assign(n + 1, 0);
@@ -221,6 +221,12 @@ void find_borders(const FilmMesh& mesh, Topology& topology) {
 }
 
 }  // namespace
+
+VertexTopology build_vertex_topology(const FilmMesh& mesh) {
+  VertexTopology topology;
+  find_phases_and_stars(mesh, topology);
+  return topology;
+}
 
 Topology build_topology(const FilmMesh& mesh) {
   Topology topology;
