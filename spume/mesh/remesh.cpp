@@ -18,7 +18,6 @@ namespace spume::mesh {
 namespace {
 
 constexpr int largest_number_of_rounds = 4;  // of split, collapse, flip, smooth
-constexpr int least_slab = 49152;            // vertices of a part that is worth its seam
 constexpr int reach_of_seam = 3;             // edges to both sides of a cut
 constexpr int largest_number_of_split_passes =
     24;  // halving from the size of the foam to a film's resolution
@@ -97,7 +96,9 @@ RemeshReport remesh(FilmMesh& mesh, const TargetLength& target, const Projection
   const auto work = [&](FilmMesh& part, int n_cut) {
     add(remesh_part(part, n_cut, target, project, parameters), own);
   };
-  const int n_slabs = static_cast<int>(std::bit_floor(static_cast<unsigned>(mesh.n_vertices() / least_slab)));
+  expects(parameters.least_slab > 0, "slabs have vertices");
+  const int n_slabs =
+      static_cast<int>(std::bit_floor(static_cast<unsigned>(mesh.n_vertices() / parameters.least_slab)));
   if (n_slabs < 2) {
     work(mesh, 0);
     report = own;
