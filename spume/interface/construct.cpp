@@ -157,7 +157,8 @@ Reconstruction construct(const grid::Grid& grid, const Potential& potential, sta
   PhasePotentials start = sample(grid, potential, n_functions);
   ReconstructReport report;
   // All phases count as alive here; their targets are the volumes found.
-  FoundFilms found = find_films(grid.communicator(), start, phases, smallest_volume, report.changes);
+  FoundFilms found = find_films(grid.communicator(), start, find_winners(start, grid.communicator()), phases,
+                                smallest_volume, report.changes);
   project_on_functions(potential, functions_of_phases(phases.count(), report.changes), found.topology, h,
                        found.films);
   if (const auto problem = clearance_problem(grid, found.films); !problem.empty()) throw InputError(problem);

@@ -10,15 +10,14 @@ namespace spume::interface {
 
 namespace {
 
-/// Winners of potentials whose phases are single pieces.
-std::vector<mesh::Phase> separated(PhasePotentials& potentials, state::Phases& phases, double smallest_volume,
-                                   std::vector<PhaseChange>& changes) {
+/// Makes phases single pieces; `winners` follow.
+void separate(const parallel::Communicator& ranks, PhasePotentials& potentials,
+              std::vector<mesh::Phase>& winners, state::Phases& phases, double smallest_volume,
+              std::vector<PhaseChange>& changes) {
   constexpr int max_rounds = 4;
-  std::vector<mesh::Phase> winners = find_winners(potentials);
   for (int n = 0; n < max_rounds && separate_pieces(potentials, winners, phases, smallest_volume, changes);
        ++n)
-    winners = find_winners(potentials);
-  return winners;
+    winners = find_winners(potentials, ranks);
 }
 
 /// Adds noise of the given amplitude [m] to all potentials where the two largest are within four cells.
@@ -38,14 +37,15 @@ void perturb_ties(PhasePotentials& potentials, double amplitude, std::uint64_t s
 
 }  // namespace
 
-FoundFilms find_films(const parallel::Communicator& ranks, PhasePotentials& potentials, state::Phases& phases,
-                      double smallest_volume, std::vector<PhaseChange>& changes) {
+FoundFilms find_films(const parallel::Communicator& ranks, PhasePotentials& potentials,
+                      std::vector<mesh::Phase> winners, state::Phases& phases, double smallest_volume,
+                      std::vector<PhaseChange>& changes) {
   constexpr int max_retries = 3;
   const std::size_t first_change = changes.size();
   double amplitude = 1e-9 * potentials.h();
   FoundFilms found;
   for (int retry = 0;; ++retry) {
-    const auto winners = separated(potentials, phases, smallest_volume, changes);
+    separate(ranks, potentials, winners, phases, smallest_volume, changes);
     found.films = contour(ranks, potentials, winners);
     found.topology = mesh::build_topology(found.films);
     if (retry == max_retries) break;
@@ -55,6 +55,7 @@ FoundFilms find_films(const parallel::Communicator& ranks, PhasePotentials& pote
       perturb_ties(potentials, amplitude, retry);
       amplitude *= 10;
     }
+    winners = find_winners(potentials, ranks);
   }
   settle_new_phases(found.films, found.topology, phases, changes, first_change);
   return found;

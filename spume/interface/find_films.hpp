@@ -17,11 +17,12 @@ struct FoundFilms {
   mesh::Topology topology;
 };
 
-/// Separates pieces, contours, suppresses specks, and gives new phases their target volumes. Where edges do
-/// not conform (exact ties), the potentials near ties are perturbed by 1e-9 h, then 1e-8 h, then 1e-7 h.
-/// Collective.
-FoundFilms find_films(const parallel::Communicator& ranks, PhasePotentials& potentials, state::Phases& phases,
-                      double smallest_volume, std::vector<PhaseChange>& changes);
+/// From potentials and their winners: separates pieces, contours, suppresses specks, and gives new phases
+/// their target volumes. Where edges do not conform (exact ties), the potentials near ties are perturbed by
+/// 1e-9 h, then 1e-8 h, then 1e-7 h. Collective.
+FoundFilms find_films(const parallel::Communicator& ranks, PhasePotentials& potentials,
+                      std::vector<mesh::Phase> winners, state::Phases& phases, double smallest_volume,
+                      std::vector<PhaseChange>& changes);
 
 /// Puts the vertices onto the tie of their phases by Newton's method; gives the number that stayed where they
 /// were. Each rank does its share of them. Collective.

@@ -133,32 +133,45 @@ void mark_large(const Domain& domain, std::vector<ClosedSurface>& surfaces) {
         s.volume = std::numeric_limits<double>::infinity();
 }
 
-std::vector<ClosedSurface> closed_surfaces(const mesh::FilmMesh& films, const mesh::Topology& topology) {
-  // Side s: triangle s/2 as seen from its phase_a (even) or its phase_b (odd).
-  const auto phase_of = [&](int side) {
-    const auto& t = films.triangle[side / 2];
-    return side % 2 ? t.phase_b : t.phase_a;
-  };
-  UnionFind classes(2 * films.n_triangles());
-  std::vector<int> met;  // one side of each phase at a vertex
+/// The surface of each side of each lamella, [2 lamella] of its phase_a and [2 lamella + 1] of its phase_b;
+/// gives their number.
+int number_surfaces(const mesh::FilmMesh& films, const mesh::Topology& topology,
+                    std::vector<int>& surface_of_side) {
+  UnionFind classes(2 * topology.n_lamellae());
+  std::map<mesh::Phase, int> met;  // a side of each phase at a vertex
   for (int v = 0; v < films.n_vertices(); ++v) {
+    if (topology.vertex_phases[v].size() < 3) continue;
     met.clear();
-    for (int n = topology.star_offset[v]; n < topology.star_offset[v + 1]; ++n)
-      for (int side : {2 * topology.star_triangle[n], 2 * topology.star_triangle[n] + 1}) {
-        const auto known =
-            std::find_if(met.begin(), met.end(), [&](int m) { return phase_of(m) == phase_of(side); });
-        if (known == met.end())
-          met.push_back(side);
-        else
-          classes.join(*known, side);
-      }
+    for (int n = topology.star_offset[v]; n < topology.star_offset[v + 1]; ++n) {
+      const int t = topology.star_triangle[n], side = 2 * topology.triangle_lamella[t];
+      classes.join(met.emplace(films.triangle[t].phase_a, side).first->second, side);
+      classes.join(met.emplace(films.triangle[t].phase_b, side + 1).first->second, side + 1);
+    }
   }
+  return classes.number(surface_of_side);
+}
+
+/// The surfaces of the outside, and of the phases that have several: the only ones of a phase are no specks.
+std::vector<ClosedSurface> closed_surfaces(const mesh::FilmMesh& films, const mesh::Topology& topology) {
   std::vector<int> surface_of_side;
-  std::vector<ClosedSurface> surfaces(classes.number(surface_of_side), {-1, 0, {}, {}, {}});
+  std::vector<ClosedSurface> surfaces(number_surfaces(films, topology, surface_of_side), {-1, 0, {}, {}, {}});
+  std::vector<mesh::Phase> phase(surfaces.size());
+  for (int l = 0; l < topology.n_lamellae(); ++l) {
+    phase[surface_of_side[2 * l]] = topology.lamella[l].phase_a;
+    phase[surface_of_side[2 * l + 1]] = topology.lamella[l].phase_b;
+  }
+  const auto is_measured = [&](int surface) {
+    return phase[surface] == 0 || std::ranges::count(phase, phase[surface]) > 1;
+  };
+  std::vector<char> measured(surfaces.size());
+  for (std::size_t s = 0; s < surfaces.size(); ++s) measured[s] = is_measured(static_cast<int>(s));
+
   for (int side = 0; side < 2 * films.n_triangles(); ++side) {
-    ClosedSurface& s = surfaces[surface_of_side[side]];
+    const int surface = surface_of_side[2 * topology.triangle_lamella[side / 2] + side % 2];
+    if (!measured[surface]) continue;
+    ClosedSurface& s = surfaces[surface];
     const auto corner = films.corners(side / 2);
-    if (s.phase < 0) s = {phase_of(side), 0, corner[0], corner[0], corner[0]};
+    if (s.phase < 0) s = {phase[surface], 0, corner[0], corner[0], corner[0]};
     const Vec3 shift = films.domain.near(corner[0], s.start) - corner[0];
     const Vec3 a = corner[0] + shift - s.start, b = corner[1] + shift - s.start,
                c = corner[2] + shift - s.start;
@@ -169,6 +182,7 @@ std::vector<ClosedSurface> closed_surfaces(const mesh::FilmMesh& films, const me
         s.upper[d] = std::max(s.upper[d], x[d] + shift[d]);
       }
   }
+  std::erase_if(surfaces, [](const ClosedSurface& s) { return s.phase < 0; });
   mark_large(films.domain, surfaces);
   return surfaces;
 }

@@ -208,16 +208,32 @@ PhasePotentials potentials_of(const grid::Box& box, std::span<const CellBox> cel
   return potentials;
 }
 
-std::vector<mesh::Phase> find_winners(const PhasePotentials& potentials) {
-  const CellBox whole = all_cells(potentials.box().cells);
+std::vector<mesh::Phase> find_winners(const PhasePotentials& potentials,
+                                      const parallel::Communicator& ranks) {
+  const Lattice& lattice = potentials.lattice();
+  const CellBox whole = all_cells(lattice.cells);
+  const std::size_t layer_size = whole.size() / lattice.cells.k;
+  std::vector<int> share = ranks.shares(lattice.cells.k);
+  const int first = share[ranks.rank()], end = share[ranks.rank() + 1];
   std::vector<mesh::Phase> winner(whole.size(), 0);
-  std::vector<double> largest(whole.size(), -std::numeric_limits<double>::max());
-  for (const auto& field : potentials.fields())
-    for_each_cell_of_grid(field.cells, potentials.lattice(), [&](std::size_t n, std::size_t cell) {
-      const bool wins = field.value[n] > largest[cell];
-      largest[cell] = wins ? field.value[n] : largest[cell];
-      winner[cell] = wins ? field.phase : winner[cell];
-    });
+  std::vector<double> largest((end - first) * layer_size, -std::numeric_limits<double>::max());
+  for (const auto& field : potentials.fields()) {
+    CellBox layer = field.cells;
+    const double* value = field.value.data();
+    for (int k = field.cells.begin.k; k < field.cells.end.k; ++k, value += layer.size()) {
+      layer.begin.k = k;
+      layer.end.k = k + 1;
+      if (const int image = lattice.image(k, 0, 2); image < first || image >= end) continue;
+      for_each_cell_of_grid(layer, lattice, [&](std::size_t n, std::size_t cell) {
+        double& known = largest[cell - first * layer_size];
+        const bool wins = value[n] > known;
+        known = wins ? value[n] : known;
+        winner[cell] = wins ? field.phase : winner[cell];
+      });
+    }
+  }
+  for (int& cell : share) cell *= static_cast<int>(layer_size);
+  ranks.all_gather(std::span(winner), share);
   return winner;
 }
 

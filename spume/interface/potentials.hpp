@@ -9,6 +9,7 @@
 #include "spume/interface/cell_box.hpp"
 #include "spume/interface/indicators.hpp"
 #include "spume/mesh/phase_set.hpp"
+#include "spume/parallel/communicator.hpp"
 
 namespace spume::interface {
 
@@ -78,8 +79,10 @@ class PhasePotentials {
 PhasePotentials potentials_of(const grid::Box& box, std::span<const CellBox> cells,
                               std::span<const std::vector<double>> indicator, double variance, double floor);
 
-/// At every cell the phase with the largest ψ, the lowest of equals.
-std::vector<mesh::Phase> find_winners(const PhasePotentials& potentials);
+/// At every cell the phase with the largest ψ, the lowest of equals. Each rank does its share of the layers
+/// of cells and gets the whole. Collective.
+std::vector<mesh::Phase> find_winners(const PhasePotentials& potentials,
+                                      const parallel::Communicator& ranks = parallel::Communicator::self());
 /// At every cell how far the largest ψ is above the second [m]; above the lowest `beyond` where there is but
 /// one candidate.
 std::vector<double> leads_of_winners(const PhasePotentials& potentials);

@@ -44,22 +44,21 @@ PhasePotentials potentials_from(const grid::Grid& grid, mesh::FilmMesh films, co
 
 /// Bubbles that smoothing has left with too few cells to be made whole again. A ball of the smallest volume
 /// keeps 0.47 of it; only flat or long ones fall below a quarter.
-std::vector<mesh::Phase> unresolved_bubbles(const PhasePotentials& potentials, const state::Phases& phases,
-                                            double smallest_volume) {
-  const double h = potentials.h();
+std::vector<mesh::Phase> unresolved_bubbles(double h, const std::vector<mesh::Phase>& winners,
+                                            const state::Phases& phases, double smallest_volume) {
   std::vector<double> volume(phases.count(), 0.0);
-  for (mesh::Phase p : find_winners(potentials)) volume[p] += h * h * h;
+  for (mesh::Phase p : winners) volume[p] += h * h * h;
   std::vector<mesh::Phase> unresolved;
   for (mesh::Phase p = 1; p < phases.count(); ++p)
     if (phases.alive(p) && volume[p] < 0.25 * smallest_volume) unresolved.push_back(p);
   return unresolved;
 }
 
-/// Potentials of the films without the bubbles that are too small for the grid.
-PhasePotentials potentials_of_resolved(const grid::Grid& grid, const mesh::FilmMesh& films,
-                                       const mesh::Topology& topology, state::Phases& phases,
-                                       const ReconstructParameters& parameters, double smallest_volume,
-                                       ReconstructReport& report) {
+/// Potentials, and their winners, of the films without the bubbles that are too small for the grid.
+std::pair<PhasePotentials, std::vector<mesh::Phase>> potentials_of_resolved(
+    const grid::Grid& grid, const mesh::FilmMesh& films, const mesh::Topology& topology,
+    state::Phases& phases, const ReconstructParameters& parameters, double smallest_volume,
+    ReconstructReport& report) {
   mesh::FilmMesh resolved = films;
   remove_small_bubbles(resolved, phases, smallest_volume, report.changes);
   std::optional<mesh::Topology> changed;
@@ -67,8 +66,10 @@ PhasePotentials potentials_of_resolved(const grid::Grid& grid, const mesh::FilmM
   for (;;) {
     PhasePotentials potentials = potentials_from(grid, resolved, changed ? *changed : topology,
                                                  phases.count(), parameters, report.times);
-    const auto unresolved = unresolved_bubbles(potentials, phases, smallest_volume);
-    if (unresolved.empty()) return potentials;
+    auto winners = find_winners(potentials, grid.communicator());
+    const auto unresolved = unresolved_bubbles(grid.h(), winners, phases, smallest_volume);
+    report.times.lap("potentials");
+    if (unresolved.empty()) return {std::move(potentials), std::move(winners)};
     for (mesh::Phase p : unresolved) remove_bubble(resolved, phases, p, report.changes);
     changed = mesh::build_topology(resolved);
   }
@@ -81,22 +82,21 @@ PhasePotentials potentials_of_resolved(const grid::Grid& grid, const mesh::FilmM
 mesh::Topology settle(mesh::FilmMesh& films, const state::Phases& phases,
                       const ReconstructParameters& parameters, double h) {
   constexpr int n_steps = 2;
-  mesh::Topology topology = mesh::build_topology(films);
-  if (!(parameters.relaxation > 0) || films.triangle.empty()) return topology;
+  if (!(parameters.relaxation > 0) || films.triangle.empty()) return mesh::build_topology(films);
   state::Phases measured = phases;
   if (!parameters.conserve_volumes) measured.target_volume = mesh::phase_volumes(films, phases.count());
+  const mesh::VertexTopology vertices = mesh::build_vertex_topology(films);
   for (int n = 0; n < n_steps; ++n)
-    relax_step(films, topology, measured, parameters.relaxation * h * h / n_steps, 1);
+    relax_step(films, vertices, measured, parameters.relaxation * h * h / n_steps, 1);
 
   mesh::RemeshParameters tidying = parameters.remesh;
   tidying.collapse_below = tidying.merge_below;
   tidying.smoothing_sweeps = 0;
   const auto where_it_is = [](const Vec3& x, const mesh::PhaseSet&) { return std::optional(x); };
-  const auto tidied = mesh::remesh(
+  mesh::remesh(
       films, [edge_length = parameters.edge * h](const Vec3&) { return edge_length; }, where_it_is, tidying);
-  if (tidied.changed()) topology = mesh::build_topology(films);
   mesh::restore_volumes(films, measured.target_volume, 3, largest_volume_step * h);
-  return topology;
+  return mesh::build_topology(films);
 }
 
 }  // namespace
@@ -116,17 +116,19 @@ Reconstruction reconstruct(const grid::Grid& grid, const mesh::FilmMesh& films,
                smallest_volume = edge * edge * edge;
   ReconstructReport report;
   require_clearance(grid, films);
-  auto potentials = std::make_shared<PhasePotentials>(
-      potentials_of_resolved(grid, films, topology, phases, parameters, smallest_volume, report));
-  return extract_films(grid, std::move(potentials), phases, parameters, std::move(report));
+  auto [potentials, winners] =
+      potentials_of_resolved(grid, films, topology, phases, parameters, smallest_volume, report);
+  return extract_films(grid, std::make_shared<PhasePotentials>(std::move(potentials)), std::move(winners),
+                       phases, parameters, std::move(report));
 }
 
 Reconstruction extract_films(const grid::Grid& grid, std::shared_ptr<PhasePotentials> potentials,
-                             state::Phases& phases, const ReconstructParameters& parameters,
-                             ReconstructReport report) {
+                             std::vector<mesh::Phase> winners, state::Phases& phases,
+                             const ReconstructParameters& parameters, ReconstructReport report) {
   const double h = grid.h(), edge = parameters.smallest_bubble_cells * h,
                smallest_volume = edge * edge * edge;
-  FoundFilms found = find_films(grid.communicator(), *potentials, phases, smallest_volume, report.changes);
+  FoundFilms found = find_films(grid.communicator(), *potentials, std::move(winners), phases, smallest_volume,
+                                report.changes);
   mesh::FilmMesh& mesh = found.films;
   report.times.lap("contour");
   report.n_refused_projections = project_vertices(grid.communicator(), *potentials, found.topology, mesh);

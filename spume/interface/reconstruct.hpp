@@ -72,10 +72,11 @@ Reconstruction reconstruct(const grid::Grid& grid, const mesh::FilmMesh& films,
 
 /// The films of given potentials, which are the second half of reconstruct(): single pieces, contour,
 /// projection, volumes, coarsening. The potentials are changed where pieces are separated, and by the
-/// constants that give bubbles their volumes. `report` holds what was done before. Throws as reconstruct().
+/// constants that give bubbles their volumes. `winners` as of find_winners(); `report` holds what was done
+/// before. Throws as reconstruct().
 Reconstruction extract_films(const grid::Grid& grid, std::shared_ptr<PhasePotentials> potentials,
-                             state::Phases& phases, const ReconstructParameters& parameters,
-                             ReconstructReport report);
+                             std::vector<mesh::Phase> winners, state::Phases& phases,
+                             const ReconstructParameters& parameters, ReconstructReport report);
 
 /// Films from functions instead of from a mesh: the Voronoi interface of `potential(phase, x)`, phases 0 …
 /// n−1 (where two are equal and largest; each smooth and of the size of a distance near its films). For

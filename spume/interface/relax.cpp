@@ -46,7 +46,7 @@ std::array<double, 3> side_weights(const mesh::FilmMesh& films, int t, double do
 }
 
 /// Lumped areas over τ, and the cotangent matrix of all films.
-ImplicitStep implicit_step(const mesh::FilmMesh& films, const mesh::Topology& topology, double tau) {
+ImplicitStep implicit_step(const mesh::FilmMesh& films, const mesh::VertexTopology& topology, double tau) {
   const int n = films.n_vertices();
   std::vector<std::array<double, 3>> side(films.triangle.size());
   ImplicitStep step{std::vector<double>(n, 0.0), {0}, {}, {}, std::vector<Vec3>(n)};
@@ -149,8 +149,8 @@ void move_vertices(const ImplicitStep& step, const std::vector<Vec3>& push, mesh
 
 }  // namespace
 
-RelaxStepReport relax_step(mesh::FilmMesh& films, const mesh::Topology& topology, const state::Phases& phases,
-                           double tau, int volume_iterations) {
+RelaxStepReport relax_step(mesh::FilmMesh& films, const mesh::VertexTopology& topology,
+                           const state::Phases& phases, double tau, int volume_iterations) {
   RelaxStepReport report{};
   report.area_before = mesh::film_area(films);
   const auto pressure = mesh::film_pressures(films, topology, mesh::area_descent(films), phases.count());

@@ -19,7 +19,7 @@ struct RelaxStepReport {
 /// then volumes restored on the mesh, in so many iterations of mesh::restore_volumes(). `topology` is that of
 /// the films, which a step keeps. τ [m²] is the time in units where the film tension over the friction is
 /// one.
-RelaxStepReport relax_step(mesh::FilmMesh& films, const mesh::Topology& topology, const state::Phases& phases,
-                           double tau, int volume_iterations = 2);
+RelaxStepReport relax_step(mesh::FilmMesh& films, const mesh::VertexTopology& topology,
+                           const state::Phases& phases, double tau, int volume_iterations = 2);
 
 }  // namespace spume::interface

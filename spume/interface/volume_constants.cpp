@@ -3,6 +3,8 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "spume/base/error.hpp"
@@ -10,6 +12,22 @@
 #include "spume/mesh/measure.hpp"
 
 namespace spume::interface {
+
+namespace {
+
+/// Area of the films between two phases [m²].
+std::map<std::pair<mesh::Phase, mesh::Phase>, double> film_areas(const mesh::FilmMesh& films) {
+  std::map<std::pair<mesh::Phase, mesh::Phase>, double> area;
+  auto last = area.end();
+  for (int t = 0; t < films.n_triangles(); ++t) {
+    const std::pair pair{films.triangle[t].phase_a, films.triangle[t].phase_b};
+    if (last == area.end() || last->first != pair) last = area.emplace(pair, 0.0).first;
+    last->second += mesh::triangle_area(films, t);
+  }
+  return area;
+}
+
+}  // namespace
 
 void raise_to_volumes(PhasePotentials& potentials, const mesh::FilmMesh& films, const state::Phases& phases,
                       double largest) {
@@ -19,9 +37,9 @@ void raise_to_volumes(PhasePotentials& potentials, const mesh::FilmMesh& films, 
   const auto is_free = [&](mesh::Phase p) { return groups.find(p) != p && phases.alive(p); };
 
   std::vector<Eigen::Triplet<double>> entries;
-  for (int t = 0; t < films.n_triangles(); ++t) {
-    const mesh::Phase a = films.triangle[t].phase_a, b = films.triangle[t].phase_b;
-    const double half_area = 0.5 * mesh::triangle_area(films, t);
+  for (const auto& [pair, area] : film_areas(films)) {
+    const auto [a, b] = pair;
+    const double half_area = 0.5 * area;
     if (is_free(a)) entries.emplace_back(a, a, half_area);
     if (is_free(b)) entries.emplace_back(b, b, half_area);
     if (!is_free(a) || !is_free(b)) continue;

@@ -9,7 +9,6 @@ namespace {
 
 constexpr int largest_number_of_passes = 6;
 constexpr int block_size = 4096;  // vertices with consecutive numbers, about what a cache holds
-constexpr int n_parts = 4;        // of a mesh of at least as many blocks, that ranks look at side by side
 constexpr double tiny_edge_reach =
     2.2;                              // × target: the longest edge that the collapse of a tiny one may make
 constexpr double least_cosine = 0.7;  // between a triangle and the film around it, after a collapse
@@ -31,17 +30,6 @@ double cosine(const Vec3& a, double length_a, const Vec3& b, double length_b) {
   return length_a > 0 && length_b > 0 ? dot(a, b) / (length_a * length_b) : -1;
 }
 
-/// Vertices with consecutive numbers, from first to before end.
-struct Range {
-  int first, end;
-  bool contains(int v) const { return first <= v && v < end; }
-};
-
-/// Vertex `gone` has collapsed into `kept`.
-struct Collapse {
-  int gone, kept;
-};
-
 /// A collapse of v into w under examination.
 struct Candidate {
   int v, w;
@@ -60,8 +48,7 @@ class Collapser {
         dead_triangle_(work.mesh.n_triangles(), 0),
         dead_vertex_(work.mesh.n_vertices(), 0),
         normal_(work.mesh.n_vertices()),
-        mark_(work.mesh.n_vertices(), 0),
-        part_{0, work.mesh.n_vertices()} {
+        mark_(work.mesh.n_vertices(), 0) {
     for (int v = 0; v < mesh_.n_vertices(); ++v) kind_.push_back(work_.kind(v));
     for (int t = 0; t < mesh_.n_triangles(); ++t) {
       const Vec3 normal = doubled_area_normal(mesh_, t);
@@ -75,12 +62,12 @@ class Collapser {
   /// the last one changed: elsewhere they would be refused again. Ends early when most of the mesh has
   /// changed, which is then better looked at afresh, without the holes in its numbering.
   int run(int& n_passes_left) {
-    int n_collapsed = collapse_in_parts(short_edges());
+    int n_collapsed = collapse_listed(short_edges());
     while (--n_passes_left > 0 && !grown_.empty() && changed_little()) {
       const std::vector<int> changed = changed_vertices();
       grown_.clear();
       for (int v : changed) measure(v);
-      n_collapsed += collapse_listed(short_edges_at(changed)).n_collapsed();
+      n_collapsed += collapse_listed(short_edges_at(changed));
     }
     if (grown_.empty()) n_passes_left = 0;
     if (n_collapsed > 0) work_.remove(dead_triangle_);
@@ -117,16 +104,7 @@ class Collapser {
   /// Star and normal of a vertex, after a pass.
   void measure(int v);
   void fetch_ahead(const std::vector<EdgeLength>& edges, std::size_t n) const;
-  /// What was done of a list, and what would have reached beyond the part of the mesh that is open.
-  struct Done {
-    std::vector<Collapse> collapse;
-    std::vector<EdgeLength> left_over;
-
-    int n_collapsed() const { return static_cast<int>(collapse.size()); }
-  };
-  int collapse_in_parts(const std::vector<EdgeLength>& edges);
-  Done collapse_listed(const std::vector<EdgeLength>& edges);
-  bool stays_in_part(int v, int w) const;
+  int collapse_listed(const std::vector<EdgeLength>& edges);
   bool try_collapse(int v, int w);
   bool is_allowed_by_kind(const Candidate& c, int n_shared) const;
   bool keeps_topology(const Candidate& c, int n_shared);
@@ -146,7 +124,6 @@ class Collapser {
   std::vector<Vec3> normal_;  // of film vertices, at the start of the pass
   std::vector<int> mark_;     // of vertices: scratch of keeps_topology
   int next_mark_ = 1;
-  Range part_;              // that is open: nothing beyond it is looked at or changed
   std::vector<int> grown_;  // vertices that took over the triangles of another in this pass
 };
 
@@ -220,54 +197,8 @@ void Collapser::fetch_ahead(const std::vector<EdgeLength>& edges, std::size_t n)
       for (int t : star_[v]) __builtin_prefetch(&mesh_.triangle[t]);
 }
 
-/// Parts do not know of each other: it does not matter which rank does which, and in what order. What reaches
-/// from one into another comes last.
-int Collapser::collapse_in_parts(const std::vector<EdgeLength>& edges) {
-  const int n = mesh_.n_vertices();
-  if (n < n_parts * block_size) return collapse_listed(edges).n_collapsed();
-  const auto part_of = [&](int v) { return static_cast<int>(static_cast<long>(v) * n_parts / n); };
-  std::array<std::vector<EdgeLength>, n_parts> inside;
-  std::vector<EdgeLength> across;
-  for (const EdgeLength& e : edges)
-    (part_of(e.low) == part_of(e.high) ? inside[part_of(e.low)] : across).push_back(e);
-
-  const parallel::Communicator& ranks = work_.ranks;
-  const std::vector<int> share = ranks.shares(n_parts);
-  const auto begin_of = [&](int part) {
-    return static_cast<int>((static_cast<long>(part) * n + n_parts - 1) / n_parts);
-  };
-  Done own;
-  for (int p = share[ranks.rank()]; p < share[ranks.rank() + 1]; ++p) {
-    part_ = {begin_of(p), begin_of(p + 1)};
-    const Done done = collapse_listed(inside[p]);
-    own.collapse.insert(own.collapse.end(), done.collapse.begin(), done.collapse.end());
-    own.left_over.insert(own.left_over.end(), done.left_over.begin(), done.left_over.end());
-  }
-  part_ = {0, n};
-  std::vector<int> of_rank;
-  const auto left_over = ranks.joined(std::move(own.left_over), of_rank);
-  const auto collapses = ranks.joined(std::move(own.collapse), of_rank);
-  for (int c = 0; c < of_rank.back(); ++c) {
-    const bool done_here = of_rank[ranks.rank()] <= c && c < of_rank[ranks.rank() + 1];
-    if (!done_here) collapse(collapses[c].gone, collapses[c].kept);
-  }
-  across.insert(across.end(), left_over.begin(), left_over.end());
-  std::sort(across.begin(), across.end());
-  return of_rank.back() + collapse_listed(across).n_collapsed();
-}
-
-/// Whether all that a collapse of one into the other looks at is in the open part.
-bool Collapser::stays_in_part(int v, int w) const {
-  if (part_.first == 0 && part_.end == mesh_.n_vertices()) return true;
-  for (int end : {v, w})
-    for (int t : star_[end])
-      for (int x : mesh_.triangle[t].vertex)
-        if (!part_.contains(x)) return false;
-  return true;
-}
-
-Collapser::Done Collapser::collapse_listed(const std::vector<EdgeLength>& edges) {
-  Done done;
+int Collapser::collapse_listed(const std::vector<EdgeLength>& edges) {
+  int n_collapsed = 0;
   for (std::size_t n = 0; n < edges.size(); ++n) {
     fetch_ahead(edges, n);
     const EdgeLength& e = edges[n];
@@ -276,16 +207,9 @@ Collapser::Done Collapser::collapse_listed(const std::vector<EdgeLength>& edges)
     drop_dead_from_star(e.high);
     int v = e.low, w = e.high;  // v goes: the one of lower precedence, or else a needless one
     if (kind(w) < kind(v) || (kind(w) == kind(v) && hangs_in_three_triangles(w))) std::swap(v, w);
-    if (!stays_in_part(v, w)) {
-      done.left_over.push_back(e);
-      continue;
-    }
-    if (try_collapse(v, w))
-      done.collapse.push_back({v, w});
-    else if (kind(v) == kind(w) && try_collapse(w, v))
-      done.collapse.push_back({w, v});
+    n_collapsed += try_collapse(v, w) || (kind(v) == kind(w) && try_collapse(w, v));
   }
-  return done;
+  return n_collapsed;
 }
 
 bool Collapser::try_collapse(int v, int w) {
@@ -303,7 +227,7 @@ bool Collapser::try_collapse(int v, int w) {
 }
 
 bool Collapser::is_allowed_by_kind(const Candidate& c, int n_shared) const {
-  if (kind(c.v) == VertexKind::Junction || work_.held[c.v]) return false;
+  if (kind(c.v) == VertexKind::Junction || work_.held[c.v] || work_.is_cut(c.w)) return false;
   if (kind(c.v) == VertexKind::Film) return n_shared == 2;  // whose phases then meet at w, too
   return n_shared == 3 && work_.phases[c.w].contains(work_.phases[c.v]);
 }

@@ -74,7 +74,7 @@ bool EdgeFlipper::improves(const Hinge& e, const EdgeUse& l, const EdgeUse& r) c
   // Two angles that are not obtuse need not be measured.
   if (dot(xa - left, xb - left) >= 0 && dot(xa - right, xb - right) >= 0) return false;
   if (angle_at(left, xa, xb) + angle_at(right, xa, xb) < std::numbers::pi + angle_margin) return false;
-  if (e.left == e.right) return false;
+  if (e.left == e.right || (work_.is_cut(e.left) && work_.is_cut(e.right))) return false;
   if (work_.kind(e.left) == VertexKind::Film) {
     if (is_neighbour({l.triangle, (l.corner + 2) % 3}, e.right)) return false;
   } else if (work_.kind(e.right) == VertexKind::Film) {

@@ -10,7 +10,7 @@ namespace spume::mesh {
 /// Flips edges inside a lamella whose two opposite angles exceed π together (by 0.05, so that squares stay),
 /// towards the Delaunay triangulation. An edge stays when a triangle would turn by more than 60 degrees, when
 /// the new edge exists already (as seen from a vertex inside the film, whose triangles are one fan in a
-/// conforming mesh), or when it would join two points of borders across the film.
+/// conforming mesh), or when it would join two points of borders across the film, or two of a cut.
 class EdgeFlipper {
  public:
   /// Between the runs vertices of `work` may move, but its triangles stay.

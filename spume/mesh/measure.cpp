@@ -165,7 +165,7 @@ std::vector<Vec3> weighted_volume_gradient(const FilmMesh& mesh, std::span<const
   return gradient;
 }
 
-std::vector<double> film_pressures(const FilmMesh& mesh, const Topology& topology,
+std::vector<double> film_pressures(const FilmMesh& mesh, const VertexTopology& topology,
                                    std::span<const Vec3> force, int n_phases) {
   const std::vector<Vec3> doubled_area = doubled_vertex_normals(mesh);
   // Row and column of the outside are written too and left out of the solve.

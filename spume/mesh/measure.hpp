@@ -50,7 +50,7 @@ std::vector<Vec3> weighted_volume_gradient(const FilmMesh& mesh, std::span<const
 /// N_i the unit normal out of bubble i. A weighted graph Laplacian of film areas. In equilibrium F + Σ P
 /// ∂V/∂x = 0. A group of phases that no film connects to the outside gets pressures whose mean, weighted by
 /// volume, is zero; a bubble without a vertex inside a film gets pressure 0.
-std::vector<double> film_pressures(const FilmMesh& mesh, const Topology& topology,
+std::vector<double> film_pressures(const FilmMesh& mesh, const VertexTopology& topology,
                                    std::span<const Vec3> force, int n_phases);
 
 }  // namespace spume::mesh

@@ -189,8 +189,9 @@ bool Merger::is_regular_link(const PhaseSet& phases) const {
 /// A neighbour that only dying triangles join to the group must go with them, or it would hang in the air.
 bool Merger::lets_neighbours_be(int dying_triangle, const Link& link) const {
   const auto goes = [&](int x) {
-    return std::all_of((*star_)[x].begin(), (*star_)[x].end(),
-                       [&](int t) { return std::binary_search(dying_.begin(), dying_.end(), t); });
+    return !work_.is_cut(x) && std::all_of((*star_)[x].begin(), (*star_)[x].end(), [&](int t) {
+      return std::binary_search(dying_.begin(), dying_.end(), t);
+    });
   };
   const auto is_member = [&](int x) {
     return std::any_of(remaining_.begin(), remaining_.end(),

@@ -17,7 +17,9 @@ using TargetLength = std::function<double(const Vec3& position)>;
 /// Remeshing of a multi-film mesh: collapses, splits, flips and tangential smoothing that keep it conforming
 /// and never change which lamellae, borders and junctions there are, apart from those smaller than
 /// merge_below × target, which become a junction of more than four phases. Precedence junction > border >
-/// film throughout. Results depend on the mesh alone, not on ranks. Target lengths between points are the
+/// film throughout. A mesh of 2 least_slab vertices or more is remeshed in slabs across z, 2, 4, 8 … of
+/// them, each as if nothing were beyond its cuts, and then in seams around the cuts. Results depend on the
+/// mesh alone, not on ranks. Target lengths between points are the
 /// mean of those at the ends of an edge. Coarsening alone (split_above = 0) is collapse_short_edges,
 /// flip_edges and the sweeps of smooth, once; refinement repeats split_long_edges and these until nothing is
 /// split or collapsed, four times at most, and then a few edges may be longer than split_above × target. 1.4
@@ -31,6 +33,7 @@ struct RemeshParameters {
   double merge_below = 0;  ///< × target: what shorter edges join becomes one vertex, see merge.hpp; 0: never
   double split_above = 0;  ///< split edges longer than this × target; 0: never
   int smoothing_sweeps = 3;  ///< tangential, each followed by projection and flips
+  int least_slab = 49152;    ///< vertices of a slab that is worth its seam
 };
 struct RemeshReport {
   int n_collapsed = 0, n_split = 0, n_flipped = 0;
@@ -42,9 +45,9 @@ struct RemeshReport {
 };
 
 /// Remeshes with `target` lengths > 0 everywhere; breaks a contract (std::logic_error) otherwise. Vertices
-/// and triangles are renumbered; the order of those that stay is kept. Collective: the ranks, which all hold
-/// the mesh, share the work; the result does not depend on their number. `project` must answer alike on all
-/// of them and not throw.
+/// and triangles are renumbered; the order of those that stay is kept but for slabs. Collective: the ranks,
+/// which all hold the mesh, share the work; the result does not depend on their number. `project` must answer
+/// alike on all of them and not throw.
 RemeshReport remesh(FilmMesh& mesh, const TargetLength& target, const Projection& project,
                     const RemeshParameters& parameters,
                     const parallel::Communicator& ranks = parallel::Communicator::self());

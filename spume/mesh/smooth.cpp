@@ -54,14 +54,12 @@ void smooth(WorkingMesh& work, const Projection& project) {
     if (work.kind(low) == VertexKind::Border) mean[low].add(mesh.position[low] + 0.5 * along, norm(along));
     if (work.kind(high) == VertexKind::Border) mean[high].add(mesh.position[high] - 0.5 * along, norm(along));
   }
-  const std::vector<int> share = work.ranks.shares(mesh.n_vertices());
-  for (int v = share[work.ranks.rank()]; v < share[work.ranks.rank() + 1]; ++v) {
+  for (int v = 0; v < mesh.n_vertices(); ++v) {
     if (work.held[v] || !(mean[v].weight > 0)) continue;
     const Vec3 wanted = mean[v].sum / mean[v].weight;
     const Vec3 moved = mesh.position[v] + relaxation * (wanted - mesh.position[v]);
     mesh.position[v] = project(moved, work.phases[v]).value_or(mesh.position[v]);
   }
-  work.ranks.all_gather(std::span(mesh.position), share);
 }
 
 }  // namespace spume::mesh

@@ -8,7 +8,6 @@ namespace spume::mesh {
 /// One sweep: film vertices go 0.7 of the way to the area-weighted mean of the centroids of their triangles,
 /// border vertices to the length-weighted mean of the middles of their border edges, all at once; junctions
 /// stay. Each is then projected back; where there is no projection it stays where it was.
-/// Collective over work.ranks.
 void smooth(WorkingMesh& work, const Projection& project);
 
 }  // namespace spume::mesh

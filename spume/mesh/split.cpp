@@ -11,13 +11,14 @@ struct LongEdge {
   int edge;
 };
 
-std::vector<LongEdge> long_edges(const FilmMesh& mesh, const EdgeTable& edges, const TargetLength& target,
+std::vector<LongEdge> long_edges(const WorkingMesh& work, const EdgeTable& edges, const TargetLength& target,
                                  double split_above) {
+  const FilmMesh& mesh = work.mesh;
   const std::vector<double> target_length = targets_at_vertices(mesh, target);
   std::vector<LongEdge> list;
   for (std::size_t n = 0; n < edges.edge.size(); ++n) {
     const MeshEdge& e = edges.edge[n];
-    if (e.n_uses > 3) continue;
+    if (e.n_uses > 3 || (work.is_cut(e.low) && work.is_cut(e.high))) continue;
     const double relative_length =
         norm(mesh.edge(e.low, e.high)) / (0.5 * (target_length[e.low] + target_length[e.high]));
     if (relative_length > split_above) list.push_back({relative_length, static_cast<int>(n)});
@@ -54,7 +55,7 @@ int split_long_edges(WorkingMesh& work, const TargetLength& target, const Projec
   const EdgeTable edges = build_edges(work.mesh);
   std::vector<char> used(work.mesh.n_triangles(), 0);
   int n_split = 0;
-  for (const LongEdge& candidate : long_edges(work.mesh, edges, target, split_above)) {
+  for (const LongEdge& candidate : long_edges(work, edges, target, split_above)) {
     const MeshEdge& e = edges.edge[candidate.edge];
     const auto first = edges.use.begin() + e.first_use, last = first + e.n_uses;
     if (std::any_of(first, last, [&](const EdgeUse& use) { return used[use.triangle]; })) continue;

@@ -1,8 +1,9 @@
 #include "spume/mesh/topology.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
-#include <numeric>
+#include <span>
 
 #include "spume/base/union_find.hpp"
 
@@ -10,43 +11,37 @@ namespace spume::mesh {
 
 namespace {
 
-/// A side of a triangle, sorted so that the sides of one edge are neighbours.
+/// A side of a triangle at the vertex of its edge with the lower number.
 struct Side {
-  int low, high;  ///< vertices of the edge
+  int high;  ///< the other vertex
   int triangle;
   bool forward;  ///< runs from low to high
 };
 
-/// Buckets by the lower vertex, filled in the order of triangles; then each, of a few sides, is sorted by the
-/// higher vertex.
-std::vector<Side> sorted_sides(const FilmMesh& mesh) {
-  const auto for_each_side = [&](auto&& body) {
-    for (int t = 0; t < mesh.n_triangles(); ++t)
-      for (int e = 0; e < 3; ++e) {
-        const int a = mesh.triangle[t].vertex[e], b = mesh.triangle[t].vertex[(e + 1) % 3];
-        body(Side{std::min(a, b), std::max(a, b), t, a < b});
-      }
+/// The sides at a vertex that is the lower one of their edge: of each edge in a row, in the order of
+/// triangles.
+void find_sides(const FilmMesh& mesh, const Topology& topology, int low, std::vector<Side>& sides) {
+  sides.clear();
+  const auto insert = [&](const Side& side) {
+    std::size_t n = sides.size();
+    sides.push_back(side);
+    for (; n > 0 && sides[n - 1].high > side.high; --n) sides[n] = sides[n - 1];
+    sides[n] = side;
   };
-  std::vector<int> end(mesh.n_vertices() + 1, 0);
-  for_each_side([&](const Side& side) { ++end[side.low + 1]; });
-  std::partial_sum(end.begin(), end.end(), end.begin());
-  std::vector<Side> sides(3 * mesh.triangle.size());
-  for_each_side([&](const Side& side) { sides[end[side.low]++] = side; });
-  for (int v = 0, first = 0; v < mesh.n_vertices(); first = end[v++])
-    for (int n = first + 1; n < end[v]; ++n) {
-      const Side side = sides[n];
-      int m = n;
-      for (; m > first && sides[m - 1].high > side.high; --m) sides[m] = sides[m - 1];
-      sides[m] = side;
-    }
-  return sides;
+  for (int s = topology.star_offset[low]; s < topology.star_offset[low + 1]; ++s) {
+    const int t = topology.star_triangle[s];
+    const auto& v = mesh.triangle[t].vertex;
+    const int c = v[0] == low ? 0 : v[1] == low ? 1 : 2;
+    if (const int next = v[(c + 1) % 3]; next > low) insert({next, t, true});
+    if (const int last = v[(c + 2) % 3]; last > low) insert({last, t, false});
+  }
 }
 
 bool same_phases(const FilmTriangle& a, const FilmTriangle& b) {
   return a.phase_a == b.phase_a && a.phase_b == b.phase_b;
 }
 
-void find_phases_and_stars(const FilmMesh& mesh, Topology& topology) {
+void find_phases_and_stars(const FilmMesh& mesh, VertexTopology& topology) {
   const int n = mesh.n_vertices();
   topology.vertex_phases.assign(n, {});
   topology.star_offset.assign(n + 1, 0);
@@ -110,38 +105,38 @@ void find_lamellae(const FilmMesh& mesh, Topology& topology) {
     topology.triangle_lamella[t] = lamella_of_dof[topology.corner_dof[t][0]];
 }
 
+/// Whether three triangles at an edge are three films of three phases: a border.
+bool is_border(const FilmMesh& mesh, std::span<const Side> sides) {
+  const auto& [a, b, c] = std::array{mesh.triangle[sides[0].triangle], mesh.triangle[sides[1].triangle],
+                                     mesh.triangle[sides[2].triangle]};
+  PhaseSet phases;
+  for (const FilmTriangle* t : {&a, &b, &c}) {
+    phases.insert(t->phase_a);
+    phases.insert(t->phase_b);
+  }
+  return phases.size() == 3 && !same_phases(a, b) && !same_phases(a, c) && !same_phases(b, c);
+}
+
 /// Sorts the edges into those inside a lamella, those on borders, and the rest, which should not be.
 void find_border_edges(const FilmMesh& mesh, Topology& topology) {
-  const std::vector<Side> sides = sorted_sides(mesh);
-  for (std::size_t first = 0, last; first < sides.size(); first = last) {
-    last = first;
-    while (last < sides.size() && sides[last].low == sides[first].low &&
-           sides[last].high == sides[first].high)
-      ++last;
-    const auto triangle = [&](std::size_t s) -> const FilmTriangle& {
-      return mesh.triangle[sides[s].triangle];
-    };
-    bool conforming = false;
-    if (last - first == 2) {
-      conforming = same_phases(triangle(first), triangle(first + 1)) &&
-                   sides[first].forward != sides[first + 1].forward;
-    } else if (last - first == 3) {
-      PhaseSet phases;
-      for (std::size_t s = first; s < last; ++s) {
-        phases.insert(triangle(s).phase_a);
-        phases.insert(triangle(s).phase_b);
-      }
-      conforming = phases.size() == 3 && !same_phases(triangle(first), triangle(first + 1)) &&
-                   !same_phases(triangle(first), triangle(first + 2)) &&
-                   !same_phases(triangle(first + 1), triangle(first + 2));
-      if (conforming)
+  std::vector<Side> sides;
+  for (int low = 0; low < mesh.n_vertices(); ++low) {
+    find_sides(mesh, topology, low, sides);
+    for (std::size_t first = 0, last; first < sides.size(); first = last) {
+      last = first;
+      while (last < sides.size() && sides[last].high == sides[first].high) ++last;
+      const std::span edge(sides.data() + first, last - first);
+      if (edge.size() == 2) {
+        const bool inside = same_phases(mesh.triangle[edge[0].triangle], mesh.triangle[edge[1].triangle]) &&
+                            edge[0].forward != edge[1].forward;
+        topology.n_nonconforming_edges += !inside;
+      } else if (edge.size() == 3 && is_border(mesh, edge)) {
         topology.border_edge.push_back(
-            {{sides[first].low, sides[first].high},
-             {-1, -1},
-             -1,
-             {sides[first].triangle, sides[first + 1].triangle, sides[first + 2].triangle}});
+            {{low, edge[0].high}, {-1, -1}, -1, {edge[0].triangle, edge[1].triangle, edge[2].triangle}});
+      } else {
+        ++topology.n_nonconforming_edges;
+      }
     }
-    if (!conforming) ++topology.n_nonconforming_edges;
   }
 }
 
@@ -221,6 +216,12 @@ void find_borders(const FilmMesh& mesh, Topology& topology) {
 }
 
 }  // namespace
+
+VertexTopology build_vertex_topology(const FilmMesh& mesh) {
+  VertexTopology topology;
+  find_phases_and_stars(mesh, topology);
+  return topology;
+}
 
 Topology build_topology(const FilmMesh& mesh) {
   Topology topology;

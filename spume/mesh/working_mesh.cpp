@@ -76,8 +76,12 @@ std::vector<double> targets_at_vertices(const FilmMesh& mesh, const TargetLength
   return length;
 }
 
-WorkingMesh::WorkingMesh(FilmMesh& film_mesh, const parallel::Communicator& sharing)
-    : mesh(film_mesh), ranks(sharing), phases(film_mesh.n_vertices()), held(film_mesh.n_vertices(), 0) {
+WorkingMesh::WorkingMesh(FilmMesh& film_mesh, int n_cut_vertices)
+    : mesh(film_mesh),
+      n_cut(n_cut_vertices),
+      phases(film_mesh.n_vertices()),
+      held(film_mesh.n_vertices(), 0) {
+  std::fill_n(held.begin(), n_cut, 1);
   for (const FilmTriangle& t : mesh.triangle)
     for (int v : t.vertex) {
       phases[v].insert(t.phase_a);

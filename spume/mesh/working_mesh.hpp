@@ -7,7 +7,6 @@
 #include "spume/mesh/film_mesh.hpp"
 #include "spume/mesh/remesh.hpp"
 #include "spume/mesh/topology.hpp"
-#include "spume/parallel/communicator.hpp"
 
 namespace spume::mesh {
 
@@ -52,9 +51,9 @@ std::vector<double> targets_at_vertices(const FilmMesh& mesh, const TargetLength
 
 /// A mesh while it is being remeshed, with what every operation must keep up to date.
 struct WorkingMesh {
-  /// The ranks, which all hold the mesh and do the same to it, share the work.
-  explicit WorkingMesh(FilmMesh& film_mesh,
-                       const parallel::Communicator& sharing = parallel::Communicator::self());
+  /// The first n_cut vertices are used by triangles that are not in this mesh, which is a part of another:
+  /// see parts.hpp.
+  explicit WorkingMesh(FilmMesh& film_mesh, int n_cut = 0);
 
   /// By the number of phases: precedence is in the order of the enumeration.
   VertexKind kind(int v) const {
@@ -62,16 +61,19 @@ struct WorkingMesh {
            : phases[v].size() == 3 ? VertexKind::Border
                                    : VertexKind::Junction;
   }
+  /// Whether a vertex is on the cut around a part: it stays as it is and keeps its number, and what is known
+  /// of its triangles is not all.
+  bool is_cut(int v) const { return v < n_cut; }
   /// Adds a vertex and gives its number.
   int add_vertex(const Vec3& position, const PhaseSet& vertex_phases, bool is_held);
   /// Removes the marked triangles and the vertices that nothing uses any more.
   void remove(const std::vector<char>& dead_triangle);
 
   FilmMesh& mesh;
-  parallel::Communicator ranks;
+  int n_cut;
   std::vector<PhaseSet> phases;  ///< that meet at each vertex
   std::vector<char>
-      held;  ///< vertices on an edge of a single triangle, where a film ends: they stay as they are
+      held;  ///< vertices on a cut or an edge of a single triangle, where a film ends: they stay as they are
 };
 
 }  // namespace spume::mesh

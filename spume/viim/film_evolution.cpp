@@ -38,7 +38,9 @@ interface::Reconstruction FilmEvolution::move(const mesh::FilmMesh& films, state
   interface::ReconstructReport report;
   const bool lost = remove_lost_bubbles(films, phases, report.changes);
   auto potentials = std::make_shared<interface::PhasePotentials>(voronoi_potentials(field_, epsilon));
-  auto result = interface::extract_films(grid_, std::move(potentials), phases, parameters, std::move(report));
+  auto winners = interface::find_winners(*potentials, grid_.communicator());
+  auto result = interface::extract_films(grid_, std::move(potentials), std::move(winners), phases, parameters,
+                                         std::move(report));
   const bool labels_agree = relabel(*result.potentials);
   if (lost || !labels_agree || !result.report.changes.empty() || steps_ >= parameters_.rebuild_interval ||
       displacement_ >= parameters_.rebuild_displacement * h) {

@@ -52,7 +52,8 @@ TEST(SeparatePieces, GivesALargePieceANewPhase) {
   auto phases = testing::unset_phases(1);
   phases.target_volume[1] = 7e-10;
   std::vector<PhaseChange> changes;
-  const auto found = find_films(parallel::Communicator::self(), potentials, phases, smallest_volume, changes);
+  const auto found = find_films(parallel::Communicator::self(), potentials, find_winners(potentials), phases,
+                                smallest_volume, changes);
   ASSERT_EQ(changes.size(), 1u);
   EXPECT_EQ(changes[0].kind, Kind::Split);
   EXPECT_EQ(changes[0].other, 2);
@@ -100,7 +101,8 @@ TEST(SeparatePieces, MakesAPhaseOfAnEnclosedPocketOfTheOutside) {
   auto phases = testing::unset_phases(1);
   phases.target_volume[1] = 1e-9;
   std::vector<PhaseChange> changes;
-  const auto found = find_films(parallel::Communicator::self(), potentials, phases, smallest_volume, changes);
+  const auto found = find_films(parallel::Communicator::self(), potentials, find_winners(potentials), phases,
+                                smallest_volume, changes);
   ASSERT_EQ(changes.size(), 1u);
   EXPECT_EQ(changes[0].kind, Kind::Pocket);
   EXPECT_DOUBLE_EQ(phases.target_volume[2], smooth_phase_volumes(found.films, found.topology, 3)[2]);
