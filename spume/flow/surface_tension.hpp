@@ -17,13 +17,12 @@ struct FilmForces {
   std::vector<double> pressure;  ///< P_i of each phase, relative to the outside [Pa]
 };
 
-/// F_v = −2σ ∂A/∂x_v (every film once), less its pure-pressure part Σ_i P_i ∂V_i/∂x_v; of that, at vertices
-/// inside a film, what is normal to the film, and on a border what is normal to the border (junctions, and
-/// vertices where borders touch, keep all). The tension is the same everywhere: no smooth film pulls along
-/// itself. What ∂A/∂x_v has along it comes of the triangles, and would make the gas gather the films' liquid
-/// around some vertices at any resolution; see docs/decisions/0003. The sum of forces on each connected piece
-/// of the films stays as it is without that (zero, to round-off, for closed ones): what was taken out of it
-/// is spread over the piece by area, in whatever direction.
+/// F_v = −2σ ∂A/∂x_v (every film once), less its pure-pressure part Σ_i P_i ∂V_i/∂x_v, and without what of
+/// that pulls along films and borders, see take_out_sliding(). The tension is the same everywhere: no smooth
+/// film pulls along itself. What ∂A/∂x_v has along it comes of the triangles, and would make the gas gather
+/// the films' liquid around some vertices at any resolution; see docs/decisions/0003. Sum and moment of the
+/// forces on each connected piece of the films stay as they are without that: zero, to round-off, for closed
+/// ones.
 FilmForces film_forces(const mesh::FilmMesh& films, const mesh::Topology& topology, int n_phases,
                        double surface_tension);
 

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <vector>
 
 #include "spume/flow/navier_stokes.hpp"
 #include "spume/verification/clusters.hpp"
 #include "spume/verification/film_angles.hpp"
+#include "spume/verification/modes.hpp"
 #include "spume/verification/tables.hpp"
 
 namespace spume::verification {
@@ -46,6 +48,36 @@ AtRest at_rest(const parallel::Communicator& communicator, int n, int cells_per_
   return result;
 }
 
+/// What four bubbles do in ten capillary times at rest.
+struct Drift {
+  double speed;  ///< largest, in units of sqrt(2σ/(ρR))
+  double turn;   ///< angle by which the cluster has turned, of 0.01 h/R
+};
+
+Drift drift_of_four_bubbles(const parallel::Communicator& communicator, int cells_per_radius) {
+  constexpr int n = 4;
+  const Units units = units_of_laplace_number(1e5);
+  FoamRun run(communicator,
+              with_cluster(cube_case(units, 4 * cells_per_radius + 8, cells_per_radius), units, n));
+  put_onto_exact_cluster(run, units.radius);
+  const auto& films = run.foam().films;
+  const auto centroids = [&] {
+    std::vector<Vec3> c;
+    for (mesh::Phase p = 1; p <= n; ++p) c.push_back(centroid(films, p) - cluster_centre(units));
+    return c;
+  };
+  const std::vector<Vec3> start = centroids();
+  run.move_until(10 * units.time());
+  const std::vector<Vec3> end = centroids();
+  Vec3 moment;
+  double inertia = 0;  // of the corners of a regular tetrahedron, the same about all axes
+  for (int p = 0; p < n; ++p) {
+    moment += cross(start[p], end[p]);
+    inertia += 2.0 / 3 * norm_squared(start[p]);
+  }
+  return {flow::max_speed(run.foam().gas) / units.speed(), norm(moment) / inertia * cells_per_radius / 0.01};
+}
+
 void judge(int n, const AtRest& at, Report& report) {
   const std::string what = name_of(n);
   report.at_most(what + ": largest speed, sqrt(2σ/(ρR))", at.speed, 0.016, "0 in an exact equilibrium");
@@ -85,6 +117,17 @@ void static_currents(const parallel::Communicator& communicator, Scale scale, Re
     for (const double laplace : {1e3, 2.7e6})
       report.told(fmt::format("{}: largest speed, R = 16 h, La = {:.1e}", name_of(n), laplace),
                   at_rest(communicator, n, 16, laplace).speed, "0");
+  }
+  report.note("four bubbles for ten capillary times");
+  double coarser = 0;
+  for (const int cells_per_radius : scale == Scale::Full ? std::vector<int>{8, 12} : std::vector<int>{8}) {
+    const Drift drift = drift_of_four_bubbles(communicator, cells_per_radius);
+    report.told(fmt::format("R = {} h: largest speed, sqrt(2σ/(ρR))", cells_per_radius), drift.speed, "0");
+    report.at_most(fmt::format("R = {} h: turned by, of 0.01 h/R", cells_per_radius), drift.turn, 1,
+                   "0: films move by less than 0.01 h");
+    if (coarser > 0)
+      report.at_most("its speed over that of the coarser grid", drift.speed / coarser, 1, "falls");
+    coarser = drift.speed;
   }
 }
 

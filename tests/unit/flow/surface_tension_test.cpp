@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <span>
 
 #include "spume/grid/loops.hpp"
@@ -159,13 +160,93 @@ TEST(SurfaceTension, AFilmThroughTheWholeBoxKeepsTheForceOfItsPressure) {
   EXPECT_LT(norm(total(forces.on_vertex) - sum), 1e-12 * norm(sum));
 }
 
-TEST(SurfaceTension, FilmsPullThemselvesNowhere) {
-  mesh::FilmMesh films = shapes::sphere(centre, radius, 3, 1);
-  for (Vec3& x : films.position) x = {x.x, 0.8 * x.y, x.z + 0.1 * std::sin(3000 * x.x) * radius};
-  const flow::FilmForces forces = flow::film_forces(films, mesh::build_topology(films), 2, sigma);
-  EXPECT_GT(magnitude(forces.on_vertex), sigma * radius);
-  // A translation changes neither area nor volume, and what is taken out of the forces is given back.
-  EXPECT_LT(norm(total(forces.on_vertex)), 1e-13 * 2 * sigma * magnitude(mesh::area_descent(films)));
+/// Σ x × F [N m].
+Vec3 moment(std::span<const Vec3> position, std::span<const Vec3> force) {
+  Vec3 sum;
+  for (std::size_t v = 0; v < force.size(); ++v) sum += cross(position[v], force[v]);
+  return sum;
+}
+
+/// What of the forces is left where all that pulls along films and borders is taken out [N].
+std::vector<Vec3> without_sliding(const mesh::FilmMesh& films, const mesh::Topology& topology,
+                                  std::vector<Vec3> force) {
+  const std::vector<Vec3> normal = mesh::doubled_vertex_normals(films),
+                          tangent = mesh::border_tangents(films, topology);
+  for (std::size_t v = 0; v < force.size(); ++v) {
+    const Vec3 n = normalized(normal[v]);
+    force[v] = topology.vertex_kind[v] == mesh::VertexKind::Film
+                   ? dot(force[v], n) * n
+                   : force[v] - dot(force[v], tangent[v]) * tangent[v];
+  }
+  return force;
+}
+
+/// A translation or a turn changes neither area nor volume: what is taken out of the forces must not pull or
+/// turn a closed piece of films either.
+void expect_no_sum_and_no_moment(const mesh::FilmMesh& films, std::span<const Vec3> position, int n_phases) {
+  const mesh::Topology topology = mesh::build_topology(films);
+  const flow::FilmForces forces = flow::film_forces(films, topology, n_phases, sigma);
+  const std::vector<Vec3> whole = whole_forces(films, forces.pressure),
+                          projected = without_sliding(films, topology, whole);
+  const double scale = 2 * sigma * magnitude(mesh::area_descent(films));
+  ASSERT_GT(norm(total(projected)), 1e-6 * scale);
+  ASSERT_GT(norm(moment(position, projected)), 1e-6 * scale * radius);
+  EXPECT_LT(norm(total(forces.on_vertex)), 1e-13 * scale);
+  EXPECT_LT(norm(moment(position, forces.on_vertex)), 1e-13 * scale * radius);
+}
+
+TEST(SurfaceTension, FilmsNeitherPullNorTurnThemselves) {
+  for (mesh::FilmMesh films : {shapes::sphere({}, radius, 3, 1), shapes::four_bubbles(radius, 5)}) {
+    for (Vec3& x : films.position)
+      x = {x.x, 0.8 * x.y + 0.1 * x.x, x.z + 0.1 * std::sin(2000 * x.x + 1) * radius};
+    expect_no_sum_and_no_moment(films, films.position, 5);
+    // The same over a corner of a periodic box.
+    const std::vector<Vec3> in_one_piece = films.position;
+    films.domain = {{0, 0, 0}, {box_length, box_length, box_length}, {true, true, true}};
+    for (Vec3& x : films.position) x = films.domain.inside(x);
+    expect_no_sum_and_no_moment(films, in_one_piece, 5);
+  }
+}
+
+TEST(SurfaceTension, FilmsOfRevolutionDoNotTurnThemselvesAboutTheirAxis) {
+  // The normals of such films have no moment about the axis, but for those of the triangles.
+  mesh::FilmMesh films = shapes::double_bubble(radius, 8);
+  const mesh::Topology topology = mesh::build_topology(films);
+  for (int v = 0; v < films.n_vertices(); ++v) {
+    Vec3& x = films.position[v];
+    x += 0.03 * radius * Vec3{std::sin(4000 * x.y), std::sin(4000 * x.z), std::sin(4000 * x.x)};
+    x = shapes::on_double_bubble(radius, x, topology.vertex_phases[v]);
+  }
+  expect_no_sum_and_no_moment(films, films.position, 3);
+}
+
+TEST(SurfaceTension, ATubeThroughTheBoxDoesNotTurnItselfAboutItsAxis) {
+  constexpr int n_along = 16, n_around = 24;
+  mesh::FilmMesh films;
+  films.domain = {{0, 0, 0}, {box_length, box_length, box_length}, {true, true, true}};
+  for (int i = 0; i < n_along; ++i)
+    for (int j = 0; j < n_around; ++j) {
+      const double x = i * box_length / n_along, angle = 2 * std::numbers::pi * j / n_around,
+                   r = 0.2 * box_length * (1 + 0.1 * ((i * 5 + j * 3) % 4) / 4.0 + 0.2 * std::sin(2 * angle));
+      films.position.push_back(
+          {x, 0.5 * box_length + r * std::cos(angle), 0.5 * box_length + r * std::sin(angle)});
+    }
+  const std::vector<Vec3> in_one_piece = films.position;
+  for (Vec3& x : films.position) x = films.domain.inside(x + Vec3{0, 0.5 * box_length, 0.4 * box_length});
+  const auto at = [](int i, int j) { return i % n_along * n_around + j % n_around; };
+  for (int i = 0; i < n_along; ++i)
+    for (int j = 0; j < n_around; ++j) {
+      films.triangle.push_back(mesh::make_triangle(at(i, j), at(i, j + 1), at(i + 1, j + 1), 1, 0));
+      films.triangle.push_back(mesh::make_triangle(at(i, j), at(i + 1, j + 1), at(i + 1, j), 1, 0));
+    }
+  const mesh::Topology topology = mesh::build_topology(films);
+  ASSERT_EQ(topology.n_nonconforming_edges, 0);
+  const flow::FilmForces forces = flow::film_forces(films, topology, 2, sigma);
+  const std::vector<Vec3> projected = without_sliding(films, topology, whole_forces(films, forces.pressure));
+  const double scale = 2 * sigma * magnitude(mesh::area_descent(films));
+  ASSERT_GT(std::abs(moment(in_one_piece, projected).x), 1e-6 * scale * box_length);
+  EXPECT_LT(std::abs(moment(in_one_piece, forces.on_vertex).x), 1e-13 * scale * box_length);
+  EXPECT_LT(norm(total(forces.on_vertex)), 1e-13 * scale);
 }
 
 TEST(SurfaceTension, SpreadForceHasTheTotalAndTheMomentOfTheVertexForces) {
