@@ -19,8 +19,11 @@ DrainageEquations::DrainageEquations(const state::FilmNetwork& network, const st
       for (int i = 0; i < domain.size(); ++i) film_area_[domain.film_dof[i]] = domain.surface.mass[i];
       const std::vector<double> zero(domain.size(), 0.0);
       LamellaJacobian jacobian(domain);
-      fem::SparseLu lu(jacobian.column_offset(), jacobian.row());
-      lamellae_.push_back({std::move(domain), std::move(jacobian), std::move(lu), zero, zero, zero});
+      fem::LaggedLu lu(jacobian.column_offset(), jacobian.row());
+      std::vector<double> weight;
+      for (double area : domain.surface.mass) weight.push_back(1 / area);
+      lamellae_.push_back(
+          {std::move(domain), std::move(jacobian), std::move(lu), std::move(weight), zero, zero, zero});
     }
     build_border_system();
   });
@@ -95,7 +98,7 @@ bool DrainageEquations::factorise_lamella(LamellaSystem& lamella) {
   std::transform(jacobian.begin(), jacobian.end(), matrix_.begin(), [s = s_](double j) { return -s * j; });
   for (int i = 0; i < lamella.domain.size(); ++i)
     matrix_[lamella.jacobian.diagonal()[i]] += lamella.domain.surface.mass[i];
-  return lamella.lu.factorise(matrix_);
+  return lamella.lu.assign(matrix_);
 }
 
 bool DrainageEquations::factorise(double s) {
@@ -108,26 +111,27 @@ bool DrainageEquations::factorise(double s) {
   return !shares_.communicator().any(failed);
 }
 
-/// Solves for one lamella. What round-off in the factors adds to or takes from its liquid, which can be felt
-/// where tiny triangles make J huge, is given back evenly: Σ m k + (s/2) Σ slope k = Σ b holds as exactly as
-/// it can be summed.
+/// Solves for one lamella. What the iteration leaves and round-off in the factors, which can be felt where
+/// tiny triangles make J huge, add to or take from its liquid is given back in proportion to η: Σ m k + (s/2)
+/// Σ slope k = Σ b holds as exactly as it can be summed.
 void DrainageEquations::solve_lamella(LamellaSystem& lamella, Unknowns& b) const {
   const auto& domain = lamella.domain;
   const auto& mass = domain.surface.mass;
   std::vector<double>& k = lamella.balance;
   double missing = 0, capacity = 0;
   for (int i = 0; i < domain.size(); ++i) missing += k[i] = b.film[domain.film_dof[i]];
-  lamella.lu.solve(k);
+  lamella.lu.solve(k, lamella.eta, lamella.weight);
   for (int i = 0; i < domain.size(); ++i) {
     missing -= mass[i] * k[i];
-    capacity += mass[i];
+    capacity += mass[i] * lamella.eta[i];
   }
   for (const RimNode& node : domain.rim) {
     const double loss = 0.5 * s_ * linearised_suction_.slope[node.site];
     missing -= loss * k[node.unknown];
-    capacity += loss;
+    capacity += loss * lamella.eta[node.unknown];
   }
-  for (int i = 0; i < domain.size(); ++i) b.film[domain.film_dof[i]] = k[i] + missing / capacity;
+  for (int i = 0; i < domain.size(); ++i)
+    b.film[domain.film_dof[i]] = k[i] + missing / capacity * lamella.eta[i];
 }
 
 void DrainageEquations::solve(Unknowns& b) {

@@ -9,8 +9,8 @@
 #include "spume/drainage/lamella_shares.hpp"
 #include "spume/drainage/plateau_border.hpp"
 #include "spume/drainage/suction.hpp"
+#include "spume/fem/lagged_lu.hpp"
 #include "spume/fem/network_lu.hpp"
-#include "spume/fem/sparse_lu.hpp"
 #include "spume/parallel/communicator.hpp"
 #include "spume/state/film_network.hpp"
 #include "spume/state/materials.hpp"
@@ -57,17 +57,20 @@ class DrainageEquations {
 
   /// The same rates, and J at y.
   void linearise(const Unknowns& y, Unknowns& rate);
-  /// Factorises M − s J, s [s], of the last linearise(). False if that failed on some rank. Collective.
+  /// Makes ready to solve with M − s J, s [s], of the last linearise(); matrices of lamellae are factorised
+  /// only where that is due (fem::LaggedLu). False if that failed on some rank. Collective.
   bool factorise(double s);
   /// Replaces b by the solution of (M − s J) k = b: all lamellae, then the borders with what those films
-  /// lose. Takes the film rows of own lamellae, gives all of them to every rank. Collective.
+  /// lose. Takes the film rows of own lamellae, gives all of them to every rank. Not finite in a lamella
+  /// whose matrix turns out to be singular. Collective.
   void solve(Unknowns& b);
 
  private:
   struct LamellaSystem {
     LamellaDomain domain;
     LamellaJacobian jacobian;
-    fem::SparseLu lu;
+    fem::LaggedLu lu;
+    std::vector<double> weight;                   ///< 1/m of the local unknowns [1/m²]
     std::vector<double> eta, potential, balance;  ///< of the local unknowns
   };
   void gather(const Unknowns& y, LamellaSystem& lamella) const;
