@@ -145,7 +145,10 @@ int work_in_parts(FilmMesh& mesh, const std::vector<int>& part_of_triangle, int 
   const DividedMesh divided(mesh, part_of_triangle, n_parts + 1);
   const std::vector<int> share = ranks.shares(n_parts);
   Pieces own;
-  for (int p = share[ranks.rank()]; p < share[ranks.rank() + 1]; ++p) own.append(divided.worked_on(p, work));
+  ranks.together([&] {
+    for (int p = share[ranks.rank()]; p < share[ranks.rank() + 1]; ++p)
+      own.append(divided.worked_on(p, work));
+  });
   std::vector<int> of_rank;
   Pieces all{ranks.joined(std::move(own.position), of_rank), ranks.joined(std::move(own.triangle), of_rank),
              ranks.joined(std::move(own.n_of_part), of_rank)};

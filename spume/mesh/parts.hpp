@@ -17,7 +17,8 @@ using PartWork = std::function<void(FilmMesh& part, int n_cut)>;
 /// part n_parts, which stay as they are; `part_of_triangle` has one entry a triangle. Vertices are
 /// renumbered: first those on cuts, whose number this gives, then the others part by part, in their order in
 /// the part. Collective: each rank holds the mesh, works on an even share of the parts and gets the whole;
-/// the result does not depend on the number of ranks. `work` must not throw on some of the ranks only.
+/// the result does not depend on the number of ranks. What `work`
+/// throws on one rank, all throw.
 int work_in_parts(FilmMesh& mesh, const std::vector<int>& part_of_triangle, int n_parts, const PartWork& work,
                   const parallel::Communicator& ranks);
 

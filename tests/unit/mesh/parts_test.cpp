@@ -171,5 +171,52 @@ TEST(Remesh, in_slabs_is_as_good_as_in_one) {
   EXPECT_NEAR(quality.longest_edge, quality_in_one.longest_edge, 0.1 * edge);
 }
 
+TEST(Remesh, in_slabs_between_which_there_are_no_films_is_that_of_each_piece) {
+  const FilmMesh one = shapes::sphere({0, 0, 0}, radius, 4, 1);
+  FilmMesh both = one;
+  const FilmMesh other = shapes::sphere({0, 0, 3 * radius}, radius, 4, 2);
+  both.position.insert(both.position.end(), other.position.begin(), other.position.end());
+  for (FilmTriangle t : other.triangle) {
+    for (int& v : t.vertex) v += one.n_vertices();
+    both.triangle.push_back(t);
+  }
+  const double edge = 2 * longest_edge(one);
+  const auto target = [edge](const Vec3&) { return edge; };
+  const auto where_it_is = [](const Vec3& x, const PhaseSet&) { return std::optional(x); };
+  RemeshParameters parameters;
+  parameters.least_slab = one.n_vertices();
+  FilmMesh alone_one = one, alone_other = other;
+  remesh(alone_one, target, where_it_is, {});
+  remesh(alone_other, target, where_it_is, {});
+  remesh(both, target, where_it_is, parameters);
+  auto expected = corners_of(alone_one);
+  const auto more = corners_of(alone_other);
+  expected.insert(expected.end(), more.begin(), more.end());
+  std::ranges::sort(expected);
+  EXPECT_EQ(corners_of(both), expected);
+}
+
+TEST(Remesh, of_a_film_at_one_height_is_that_of_one_slab) {
+  // All vertices at one height: no bound between slabs has anything below it.
+  FilmMesh mesh;
+  constexpr int n = 12;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) mesh.position.push_back({1e-3 * i, 1e-3 * j, 0});
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int v = j * (n + 1) + i;
+      mesh.triangle.push_back({{v, v + 1, v + n + 2}, 0, 1});
+      mesh.triangle.push_back({{v, v + n + 2, v + n + 1}, 0, 1});
+    }
+  const auto target = [](const Vec3&) { return 3e-3; };
+  const auto where_it_is = [](const Vec3& x, const PhaseSet&) { return std::optional(x); };
+  FilmMesh in_slabs = mesh;
+  RemeshParameters parameters;
+  remesh(mesh, target, where_it_is, parameters);
+  parameters.least_slab = 20;
+  remesh(in_slabs, target, where_it_is, parameters);
+  EXPECT_EQ(corners_of(in_slabs), corners_of(mesh));
+}
+
 }  // namespace
 }  // namespace spume::mesh
