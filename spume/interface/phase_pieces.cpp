@@ -116,7 +116,7 @@ PhaseField cut_out(PhaseField& parent, const CellBox& window, const std::vector<
   return field;
 }
 
-/// A closed surface of one phase: triangles linked by vertices that they share, all by the images nearest to
+/// A closed surface of one phase: lamellae linked by vertices that they share, all by the images nearest to
 /// one of them. What goes around half a periodic box or more is not measured: its volume is infinite.
 struct ClosedSurface {
   mesh::Phase phase;
@@ -160,11 +160,10 @@ std::vector<ClosedSurface> closed_surfaces(const mesh::FilmMesh& films, const me
     phase[surface_of_side[2 * l]] = topology.lamella[l].phase_a;
     phase[surface_of_side[2 * l + 1]] = topology.lamella[l].phase_b;
   }
-  const auto is_measured = [&](int surface) {
-    return phase[surface] == 0 || std::ranges::count(phase, phase[surface]) > 1;
-  };
-  std::vector<char> measured(surfaces.size());
-  for (std::size_t s = 0; s < surfaces.size(); ++s) measured[s] = is_measured(static_cast<int>(s));
+  std::map<mesh::Phase, int> n_surfaces;
+  for (mesh::Phase p : phase) ++n_surfaces[p];
+  std::vector<char> measured;
+  for (mesh::Phase p : phase) measured.push_back(p == 0 || n_surfaces[p] > 1);
 
   for (int side = 0; side < 2 * films.n_triangles(); ++side) {
     const int surface = surface_of_side[2 * topology.triangle_lamella[side / 2] + side % 2];

@@ -17,8 +17,7 @@ using PartWork = std::function<void(FilmMesh& part, int n_cut)>;
 /// part n_parts, which stay as they are; `part_of_triangle` has one entry a triangle. Vertices are
 /// renumbered: first those on cuts, whose number this gives, then the others part by part, in their order in
 /// the part. Collective: each rank holds the mesh, works on an even share of the parts and gets the whole;
-/// the result does not depend on the number of ranks. What `work`
-/// throws on one rank, all throw.
+/// the result does not depend on the number of ranks. What `work` throws on one rank, all throw.
 int work_in_parts(FilmMesh& mesh, const std::vector<int>& part_of_triangle, int n_parts, const PartWork& work,
                   const parallel::Communicator& ranks);
 
@@ -30,7 +29,8 @@ class Slabs {
   int count() const { return static_cast<int>(bound_.size()) + 1; }
   /// The slab of a point: 0 is the lowest.
   int of(const Vec3& x) const;
-  /// The slab of each triangle: that of its lowest corner, so that the cut between two slabs is in the upper.
+  /// The slab of each triangle: that of its lowest corner, so that the cut between two slabs is in the upper;
+  /// that around a periodic box is in the last.
   std::vector<int> of_triangles(const FilmMesh& mesh) const;
 
  private:

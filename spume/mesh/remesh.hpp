@@ -47,7 +47,7 @@ struct RemeshReport {
 /// Remeshes with `target` lengths > 0 everywhere; breaks a contract (std::logic_error) otherwise. Vertices
 /// and triangles are renumbered; the order of those that stay is kept but for slabs. Collective: the ranks,
 /// which all hold the mesh, share the work; the result does not depend on their number. `project` must answer
-/// alike on all of them and not throw.
+/// alike on all of them.
 RemeshReport remesh(FilmMesh& mesh, const TargetLength& target, const Projection& project,
                     const RemeshParameters& parameters,
                     const parallel::Communicator& ranks = parallel::Communicator::self());

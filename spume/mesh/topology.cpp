@@ -105,16 +105,21 @@ void find_lamellae(const FilmMesh& mesh, Topology& topology) {
     topology.triangle_lamella[t] = lamella_of_dof[topology.corner_dof[t][0]];
 }
 
-/// Whether three triangles at an edge are three films of three phases: a border.
-bool is_border(const FilmMesh& mesh, std::span<const Side> sides) {
-  const auto& [a, b, c] = std::array{mesh.triangle[sides[0].triangle], mesh.triangle[sides[1].triangle],
-                                     mesh.triangle[sides[2].triangle]};
+PhaseSet phases_of(const FilmMesh& mesh, const std::array<int, 3>& triangles) {
   PhaseSet phases;
-  for (const FilmTriangle* t : {&a, &b, &c}) {
-    phases.insert(t->phase_a);
-    phases.insert(t->phase_b);
+  for (int t : triangles) {
+    phases.insert(mesh.triangle[t].phase_a);
+    phases.insert(mesh.triangle[t].phase_b);
   }
-  return phases.size() == 3 && !same_phases(a, b) && !same_phases(a, c) && !same_phases(b, c);
+  return phases;
+}
+
+/// Whether three triangles at an edge are three films of three phases: a border.
+bool is_border(const FilmMesh& mesh, const std::array<int, 3>& triangles) {
+  const FilmTriangle &a = mesh.triangle[triangles[0]], &b = mesh.triangle[triangles[1]],
+                     &c = mesh.triangle[triangles[2]];
+  return phases_of(mesh, triangles).size() == 3 && !same_phases(a, b) && !same_phases(a, c) &&
+         !same_phases(b, c);
 }
 
 /// Sorts the edges into those inside a lamella, those on borders, and the rest, which should not be.
@@ -130,23 +135,18 @@ void find_border_edges(const FilmMesh& mesh, Topology& topology) {
         const bool inside = same_phases(mesh.triangle[edge[0].triangle], mesh.triangle[edge[1].triangle]) &&
                             edge[0].forward != edge[1].forward;
         topology.n_nonconforming_edges += !inside;
-      } else if (edge.size() == 3 && is_border(mesh, edge)) {
-        topology.border_edge.push_back(
-            {{low, edge[0].high}, {-1, -1}, -1, {edge[0].triangle, edge[1].triangle, edge[2].triangle}});
-      } else {
-        ++topology.n_nonconforming_edges;
+        continue;
       }
+      if (edge.size() == 3) {
+        const std::array triangles{edge[0].triangle, edge[1].triangle, edge[2].triangle};
+        if (is_border(mesh, triangles)) {
+          topology.border_edge.push_back({{low, edge[0].high}, {-1, -1}, -1, triangles});
+          continue;
+        }
+      }
+      ++topology.n_nonconforming_edges;
     }
   }
-}
-
-PhaseSet phases_of(const FilmMesh& mesh, const BorderEdge& edge) {
-  PhaseSet phases;
-  for (int t : edge.triangle) {
-    phases.insert(mesh.triangle[t].phase_a);
-    phases.insert(mesh.triangle[t].phase_b);
-  }
-  return phases;
 }
 
 /// Walks along a border from one dof to the next and lists the vertices in order.
@@ -175,7 +175,7 @@ std::vector<int> walk(const Topology& topology, const std::vector<std::vector<in
 void find_borders(const FilmMesh& mesh, Topology& topology) {
   std::map<std::pair<int, PhaseSet>, int> dof_of;
   for (const auto& edge : topology.border_edge)
-    for (int v : edge.vertex) dof_of.emplace(std::pair(v, phases_of(mesh, edge)), 0);
+    for (int v : edge.vertex) dof_of.emplace(std::pair(v, phases_of(mesh, edge.triangle)), 0);
   int n = 0;
   std::vector<PhaseSet> phases_of_dof;
   for (auto& [key, dof] : dof_of) {
@@ -187,7 +187,7 @@ void find_borders(const FilmMesh& mesh, Topology& topology) {
   std::vector<std::vector<int>> edges_of_dof(n);
   for (int e = 0; e < static_cast<int>(topology.border_edge.size()); ++e) {
     auto& edge = topology.border_edge[e];
-    const PhaseSet phases = phases_of(mesh, edge);
+    const PhaseSet phases = phases_of(mesh, edge.triangle);
     for (int end = 0; end < 2; ++end) {
       edge.border_dof[end] = dof_of.at({edge.vertex[end], phases});
       edges_of_dof[edge.border_dof[end]].push_back(e);
