@@ -90,8 +90,8 @@ bool EdgeFlipper::improves(const Hinge& e, const EdgeUse& l, const EdgeUse& r) c
   return dot(at_a, before) >= least * norm(at_a) && dot(at_b, before) >= least * norm(at_b);
 }
 
-/// Whether a vertex is known to be inside a film: one on a cut may be on a border beyond it, and its triangles
-/// there are not known.
+/// Whether a vertex is known to be inside a film: one on a cut may be on a border beyond it, and its
+/// triangles there are not known.
 bool EdgeFlipper::is_inner_film(int v) const {
   return work_.kind(v) == VertexKind::Film && !work_.is_cut(v);
 }

@@ -223,7 +223,8 @@ std::vector<int> Slabs::of_triangles(const FilmMesh& mesh) const {
 
 Seams seams_around_cuts(const FilmMesh& mesh, const Slabs& slabs, int n_cut, int n_rings) {
   const int none = slabs.count() - 1;
-  std::vector<int> cut_near(mesh.position.size(), none);  // of vertices: the lowest cut found within the rings
+  std::vector<int> cut_near(mesh.position.size(),
+                            none);  // of vertices: the lowest cut found within the rings
   for (int v = 0; v < n_cut; ++v) cut_near[v] = slabs.of(mesh.position[v]) - 1;
   std::vector<int> seam(mesh.triangle.size());
   UnionFind overlapping(none + 1);
