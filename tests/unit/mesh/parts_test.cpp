@@ -298,8 +298,8 @@ void expect_slabs_to_do_no_harm(const FilmMesh& mesh, double edge, const Project
   EXPECT_EQ(quality.n_inverted, 0);
   EXPECT_NEAR(in_slabs.n_vertices(), in_one.n_vertices(), 0.03 * in_one.n_vertices());
   EXPECT_NEAR(film_area(in_slabs), film_area(in_one), 1e-4 * film_area(in_one));
-  // The worst of thousands of triangles, in a mesh that is another: 2.1 degrees less in the worst of a
-  // hundred random clusters and films.
+  // The worst of thousands of triangles, in a mesh that is another: of 426 random clusters and films it was
+  // 0.08 degrees better in the mean, and more than 2 degrees worse in 8.
   EXPECT_GT(quality.smallest_angle_degrees, quality_in_one.smallest_angle_degrees - 3);
   EXPECT_NEAR(quality.median_angle_degrees, quality_in_one.median_angle_degrees, 1.5);
 }
@@ -356,6 +356,47 @@ TEST(Remesh, of_a_noisy_flat_film_does_not_depend_on_how_it_lies) {
       };
       expect_slabs_to_do_no_harm(mesh, 1.5 * edge, flat, n_slabs);
     }
+}
+
+TEST(Remesh, of_a_noisy_film_around_a_periodic_box_is_as_good_in_slabs) {
+  constexpr double edge = 1e-5;
+  constexpr int n = 100, m = 20;
+  FilmMesh mesh;
+  mesh.domain = {{0, 0, 0}, edge * Vec3{n, m, n}, {true, true, true}};
+  Random random(3);
+  const auto noise = [&] { return edge * random.uniform(-0.4, 0.4); };
+  for (int j = 0; j < m; ++j)
+    for (int i = 0; i < n; ++i) {
+      mesh.position.push_back({edge * i + noise(), edge * j + noise(), noise()});
+      if (random.uniform() < 0.2) mesh.position.back().x += edge * n;  // another image
+      const auto at = [&](int a, int b) { return b % m * n + a % n; };
+      mesh.triangle.push_back({{at(i, j), at(i + 1, j), at(i + 1, j + 1)}, 0, 1});
+      mesh.triangle.push_back({{at(i, j), at(i + 1, j + 1), at(i, j + 1)}, 0, 1});
+    }
+  const auto flat = [](const Vec3& x, const PhaseSet&) { return std::optional(Vec3{x.x, x.y, 0}); };
+  for (int n_slabs : {2, 4, 8, 16}) {
+    SCOPED_TRACE(n_slabs);
+    expect_slabs_to_do_no_harm(mesh, edge, flat, n_slabs);
+  }
+}
+
+TEST(Remesh, cuts_no_slabs_thinner_than_the_seams_beside_them) {
+  // Slabs of 25 or 12.5 edges, and a limit of 7 × 1.8 × 1.5 = 18.9.
+  constexpr double edge = 1e-5;
+  FilmMesh mesh;
+  add_noisy_film(mesh, 2, 0, 100, 30, edge);
+  const auto flat = [](const Vec3& x, const PhaseSet&) { return std::optional(Vec3{x.x, x.y, 0}); };
+  const auto in_slabs = [&](int n_slabs) {
+    RemeshParameters parameters;
+    parameters.least_slab = mesh.n_vertices() / n_slabs;
+    FilmMesh remeshed = mesh;
+    remesh(
+        remeshed, [](const Vec3&) { return 1.5 * edge; }, flat, parameters);
+    return corners_of(remeshed);
+  };
+  EXPECT_NE(in_slabs(2), in_slabs(4));
+  EXPECT_EQ(in_slabs(4), in_slabs(8));
+  EXPECT_EQ(in_slabs(4), in_slabs(16));
 }
 
 TEST(Remesh, of_noisy_films_along_the_cuts_is_as_good_in_slabs) {
