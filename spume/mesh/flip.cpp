@@ -74,10 +74,10 @@ bool EdgeFlipper::improves(const Hinge& e, const EdgeUse& l, const EdgeUse& r) c
   // Two angles that are not obtuse need not be measured.
   if (dot(xa - left, xb - left) >= 0 && dot(xa - right, xb - right) >= 0) return false;
   if (angle_at(left, xa, xb) + angle_at(right, xa, xb) < std::numbers::pi + angle_margin) return false;
-  if (e.left == e.right || (work_.is_cut(e.left) && work_.is_cut(e.right))) return false;
-  if (work_.kind(e.left) == VertexKind::Film) {
+  if (e.left == e.right) return false;
+  if (is_inner_film(e.left)) {
     if (is_neighbour({l.triangle, (l.corner + 2) % 3}, e.right)) return false;
-  } else if (work_.kind(e.right) == VertexKind::Film) {
+  } else if (is_inner_film(e.right)) {
     if (is_neighbour({r.triangle, (r.corner + 2) % 3}, e.left)) return false;
   } else {
     return false;
@@ -88,6 +88,12 @@ bool EdgeFlipper::improves(const Hinge& e, const EdgeUse& l, const EdgeUse& r) c
   const Vec3 at_b = cross(left - xb, right - xb);
   const double least = least_cosine * norm(before);
   return dot(at_a, before) >= least * norm(at_a) && dot(at_b, before) >= least * norm(at_b);
+}
+
+/// Whether a vertex is known to be inside a film: one on a cut may be on a border beyond it, and its
+/// triangles there are not known.
+bool EdgeFlipper::is_inner_film(int v) const {
+  return work_.kind(v) == VertexKind::Film && !work_.is_cut(v);
 }
 
 /// Whether an edge joins q to the film vertex at a corner of a triangle; walks around that vertex, both ways

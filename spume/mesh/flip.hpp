@@ -10,7 +10,8 @@ namespace spume::mesh {
 /// Flips edges inside a lamella whose two opposite angles exceed π together (by 0.05, so that squares stay),
 /// towards the Delaunay triangulation. An edge stays when a triangle would turn by more than 60 degrees, when
 /// the new edge exists already (as seen from a vertex inside the film, whose triangles are one fan in a
-/// conforming mesh), or when it would join two points of borders across the film, or two of a cut.
+/// conforming mesh), or when it would join two points of borders across the film, or two that may be, which
+/// points of a cut are.
 class EdgeFlipper {
  public:
   /// Between the runs vertices of `work` may move, but its triangles stay.
@@ -27,6 +28,7 @@ class EdgeFlipper {
   };
   static Hinge hinge_of(const FilmMesh& mesh, const EdgeUse& left, const EdgeUse& right);
   bool improves(const Hinge& e, const EdgeUse& l, const EdgeUse& r) const;
+  bool is_inner_film(int v) const;
   bool is_neighbour(const EdgeUse& start, int q) const;
   void flip(const Hinge& e, const EdgeUse& left, const EdgeUse& right);
   void link(const EdgeUse& side, const EdgeUse& other);

@@ -75,17 +75,8 @@ class Merger {
 };
 
 std::vector<EdgeLength> Merger::tiny_edges() const {
-  std::vector<EdgeLength> edges;
-  for (const FilmTriangle& t : mesh_.triangle)
-    for (int c = 0; c < 3; ++c) {
-      const auto [low, high] = std::minmax(t.vertex[c], t.vertex[(c + 1) % 3]);
-      const double limit = parameters_.merge_below * 0.5 * (target_[low] + target_[high]);
-      const double length_squared = norm_squared(mesh_.edge(low, high));
-      if (length_squared < limit * limit && !work_.held[low] && !work_.held[high])
-        edges.push_back({length_squared, low, high});
-    }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  std::vector<EdgeLength> edges = edges_below(mesh_, target_, parameters_.merge_below);
+  std::erase_if(edges, [&](const EdgeLength& e) { return work_.held[e.low] || work_.held[e.high]; });
   return edges;
 }
 

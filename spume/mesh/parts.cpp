@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <limits>
 #include <utility>
 
 #include "spume/base/contract.hpp"
+#include "spume/base/union_find.hpp"
 
 namespace spume::mesh {
 
@@ -137,6 +140,22 @@ FilmMesh DividedMesh::assembled(const Pieces& pieces) const {
   return mesh;
 }
 
+/// The axis along which the images of the vertices in the box spread most; the last of those as good.
+int longest_axis(const FilmMesh& mesh) {
+  Vec3 lower = Vec3{1, 1, 1} * std::numeric_limits<double>::infinity(), upper = -1.0 * lower;
+  for (const Vec3& x : mesh.position) {
+    const Vec3 inside = mesh.domain.inside(x);
+    for (int d = 0; d < 3; ++d) {
+      lower[d] = std::min(lower[d], inside[d]);
+      upper[d] = std::max(upper[d], inside[d]);
+    }
+  }
+  int longest = 2;
+  for (int d : {1, 0})
+    if (upper[d] - lower[d] > upper[longest] - lower[longest]) longest = d;
+  return longest;
+}
+
 }  // namespace
 
 int work_in_parts(FilmMesh& mesh, const std::vector<int>& part_of_triangle, int n_parts, const PartWork& work,
@@ -158,18 +177,39 @@ int work_in_parts(FilmMesh& mesh, const std::vector<int>& part_of_triangle, int 
   return n_cut;
 }
 
-Slabs::Slabs(const FilmMesh& mesh, int n_slabs) {
-  std::vector<double> height(mesh.position.size());
-  std::ranges::transform(mesh.position, height.begin(), &Vec3::z);
-  for (int slab = 1; slab < n_slabs; ++slab) {
-    const auto middle = height.begin() + static_cast<std::ptrdiff_t>(height.size()) * slab / n_slabs;
-    std::ranges::nth_element(height, middle);
+Slabs::Slabs(const FilmMesh& mesh, int n_at_most, double least_thickness)
+    : domain_(mesh.domain), axis_(longest_axis(mesh)) {
+  expects(n_at_most > 0 && std::has_single_bit(static_cast<unsigned>(n_at_most)),
+          "the number of slabs is a power of two");
+  std::vector<double> heights(mesh.position.size());
+  std::ranges::transform(mesh.position, heights.begin(), [&](const Vec3& x) { return height(x); });
+  for (int slab = 1; slab < n_at_most; ++slab) {
+    const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size()) * slab / n_at_most;
+    std::ranges::nth_element(heights, middle);
     bound_.push_back(*middle);
+  }
+  while (!bound_.empty() && thinnest() < least_thickness) {  // every second bound makes half as many
+    const std::vector<double> all = std::move(bound_);
+    bound_.clear();
+    for (std::size_t n = 1; n < all.size(); n += 2) bound_.push_back(all[n]);
   }
 }
 
+double Slabs::height(const Vec3& x) const {
+  return domain_.periodic[axis_] ? domain_.inside(x)[axis_] : x[axis_];
+}
+
+/// The least thickness of a slab between two others.
+double Slabs::thinnest() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t n = 1; n < bound_.size(); ++n) least = std::min(least, bound_[n] - bound_[n - 1]);
+  if (!domain_.periodic[axis_]) return least;
+  const double lower = domain_.lower[axis_], upper = lower + domain_.size[axis_];
+  return std::min({least, bound_.front() - lower, upper - bound_.back()});
+}
+
 int Slabs::of(const Vec3& x) const {
-  return static_cast<int>(std::ranges::upper_bound(bound_, x.z) - bound_.begin());
+  return static_cast<int>(std::ranges::upper_bound(bound_, height(x)) - bound_.begin());
 }
 
 std::vector<int> Slabs::of_triangles(const FilmMesh& mesh) const {
@@ -181,21 +221,27 @@ std::vector<int> Slabs::of_triangles(const FilmMesh& mesh) const {
   return slab;
 }
 
-std::vector<int> seams_of_triangles(const FilmMesh& mesh, const Slabs& slabs, int n_cut, int n_rings) {
+Seams seams_around_cuts(const FilmMesh& mesh, const Slabs& slabs, int n_cut, int n_rings) {
   const int none = slabs.count() - 1;
-  std::vector<int> seam_of_vertex(mesh.position.size(), none);
-  for (int v = 0; v < n_cut; ++v) seam_of_vertex[v] = slabs.of(mesh.position[v]) - 1;
-  const auto seam_of = [&](const FilmTriangle& t) {
-    const auto& [a, b, c] = t.vertex;
-    return std::min({seam_of_vertex[a], seam_of_vertex[b], seam_of_vertex[c]});
-  };
+  std::vector<int> cut_near(mesh.position.size(),
+                            none);  // of vertices: the lowest cut found within the rings
+  for (int v = 0; v < n_cut; ++v) cut_near[v] = slabs.of(mesh.position[v]) - 1;
   std::vector<int> seam(mesh.triangle.size());
+  UnionFind overlapping(none + 1);
   for (int ring = 0; ring < n_rings; ++ring) {
-    std::ranges::transform(mesh.triangle, seam.begin(), seam_of);
+    for (int t = 0; t < mesh.n_triangles(); ++t) {
+      const auto& [a, b, c] = mesh.triangle[t].vertex;
+      seam[t] = std::min({cut_near[a], cut_near[b], cut_near[c]});
+      for (int v : {a, b, c})
+        if (cut_near[v] != none) overlapping.join(seam[t], cut_near[v]);
+    }
     for (int t = 0; t < mesh.n_triangles(); ++t)
-      for (int v : mesh.triangle[t].vertex) seam_of_vertex[v] = std::min(seam_of_vertex[v], seam[t]);
+      for (int v : mesh.triangle[t].vertex) cut_near[v] = std::min(cut_near[v], seam[t]);
   }
-  return seam;
+  std::vector<int> seam_of_cut;
+  const int count = overlapping.number(seam_of_cut) - 1;  // but for `none`, which is the last
+  for (int& s : seam) s = seam_of_cut[s];
+  return {std::move(seam), count};
 }
 
 }  // namespace spume::mesh

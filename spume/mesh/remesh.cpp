@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <utility>
 #include <vector>
 
 #include "spume/base/contract.hpp"
@@ -40,20 +39,6 @@ void merge_and_collapse(WorkingMesh& work, const TargetLength& target, const Rem
   if (n_merged > 0) report.n_collapsed += collapse_short_edges(work, target, parameters);
 }
 
-int count_tiny_edges(const FilmMesh& mesh, const TargetLength& target, double tiny) {
-  const std::vector<double> target_length = targets_at_vertices(mesh, target);
-  std::vector<std::pair<int, int>> edges;
-  for (const FilmTriangle& t : mesh.triangle)
-    for (int c = 0; c < 3; ++c) {
-      const auto [low, high] = std::minmax(t.vertex[c], t.vertex[(c + 1) % 3]);
-      const double limit = tiny * 0.5 * (target_length[low] + target_length[high]);
-      if (norm_squared(mesh.edge(low, high)) < limit * limit) edges.emplace_back(low, high);
-    }
-  std::ranges::sort(edges);
-  const auto repeated = std::ranges::unique(edges);
-  return static_cast<int>(repeated.begin() - edges.begin());
-}
-
 /// Adds what was done to a part.
 void add(const RemeshReport& part, RemeshReport& report) {
   report.n_collapsed += part.n_collapsed;
@@ -83,6 +68,17 @@ RemeshReport remesh_part(FilmMesh& mesh, int n_cut, const TargetLength& target, 
   return report;
 }
 
+/// Slabs so thick that the seams at both of their sides and the cuts within these fit in, with edges as long
+/// as collapses may leave them.
+Slabs slabs_to_remesh(const FilmMesh& mesh, const TargetLength& target, const RemeshParameters& parameters) {
+  expects(parameters.least_slab > 0, "slabs have vertices");
+  const int n_worthwhile = mesh.n_vertices() / parameters.least_slab;
+  if (n_worthwhile < 2) return {mesh, 1, 0};
+  const double longest_edge = parameters.no_edge_beyond * std::ranges::max(targets_at_vertices(mesh, target));
+  return {mesh, static_cast<int>(std::bit_floor(static_cast<unsigned>(n_worthwhile))),
+          (2 * reach_of_seam + 1) * longest_edge};
+}
+
 }  // namespace
 
 RemeshReport remesh(FilmMesh& mesh, const TargetLength& target, const Projection& project,
@@ -96,20 +92,19 @@ RemeshReport remesh(FilmMesh& mesh, const TargetLength& target, const Projection
   const auto work = [&](FilmMesh& part, int n_cut) {
     add(remesh_part(part, n_cut, target, project, parameters), own);
   };
-  expects(parameters.least_slab > 0, "slabs have vertices");
-  const int n_slabs =
-      static_cast<int>(std::bit_floor(static_cast<unsigned>(mesh.n_vertices() / parameters.least_slab)));
-  if (n_slabs < 2) {
+  const Slabs slabs = slabs_to_remesh(mesh, target, parameters);
+  if (slabs.count() < 2) {
     work(mesh, 0);
     report = own;
   } else {
-    const Slabs slabs(mesh, n_slabs);
-    const int n_cut = work_in_parts(mesh, slabs.of_triangles(mesh), n_slabs, work, ranks);
-    work_in_parts(mesh, seams_of_triangles(mesh, slabs, n_cut, reach_of_seam), n_slabs - 1, work, ranks);
+    const int n_cut = work_in_parts(mesh, slabs.of_triangles(mesh), slabs.count(), work, ranks);
+    const Seams seams = seams_around_cuts(mesh, slabs, n_cut, reach_of_seam);
+    work_in_parts(mesh, seams.of_triangle, seams.count, work, ranks);
     std::vector<int> of_rank;
     for (const RemeshReport& of_one : ranks.joined(std::vector{own}, of_rank)) add(of_one, report);
   }
-  report.n_left_short = count_tiny_edges(mesh, target, parameters.tiny);
+  report.n_left_short =
+      static_cast<int>(edges_below(mesh, targets_at_vertices(mesh, target), parameters.tiny).size());
   return report;
 }
 

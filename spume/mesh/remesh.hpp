@@ -17,15 +17,15 @@ using TargetLength = std::function<double(const Vec3& position)>;
 /// Remeshing of a multi-film mesh: collapses, splits, flips and tangential smoothing that keep it conforming
 /// and never change which lamellae, borders and junctions there are, apart from those smaller than
 /// merge_below × target, which become a junction of more than four phases. Precedence junction > border >
-/// film throughout. A mesh of 2 least_slab vertices or more is remeshed in slabs across z, 2, 4, 8 … of
-/// them, each as if nothing were beyond its cuts, and then in seams around the cuts. Results depend on the
-/// mesh alone, not on ranks. Target lengths between points are the
-/// mean of those at the ends of an edge. Coarsening alone (split_above = 0) is collapse_short_edges,
-/// flip_edges and the sweeps of smooth, once; refinement repeats split_long_edges and these until nothing is
-/// split or collapsed, four times at most, and then a few edges may be longer than split_above × target. 1.4
-/// is a good value of split_above: halves must not be short enough to collapse (split_above ≥ 2
-/// collapse_below). Vertices on an edge of a single triangle, where a film ends at a wall, do not move and do
-/// not disappear.
+/// film throughout. A mesh of 2 least_slab vertices or more is remeshed in slabs across its longest axis, 2,
+/// 4, 8 … of them and none between two others thinner than seven edges of no_edge_beyond × the largest
+/// target, each as if nothing were beyond its cuts, and then in seams around the cuts. Results depend on the
+/// mesh alone, not on ranks. Target lengths between points are the mean of those at the ends of an edge.
+/// Coarsening alone (split_above = 0) is collapse_short_edges, flip_edges and the sweeps of smooth, once;
+/// refinement repeats split_long_edges and these until nothing is split or collapsed, four times at most, and
+/// then a few edges may be longer than split_above × target. 1.4 is a good value of split_above: halves must
+/// not be short enough to collapse (split_above ≥ 2 collapse_below). Vertices on an edge of a single
+/// triangle, where a film ends at a wall, do not move and do not disappear.
 struct RemeshParameters {
   double collapse_below = 0.7;  ///< collapse edges shorter than this × target
   double no_edge_beyond = 1.8;  ///< a collapse may not make an edge longer than this × target

@@ -76,6 +76,21 @@ std::vector<double> targets_at_vertices(const FilmMesh& mesh, const TargetLength
   return length;
 }
 
+std::vector<EdgeLength> edges_below(const FilmMesh& mesh, const std::vector<double>& target_at_vertex,
+                                    double fraction) {
+  std::vector<EdgeLength> edges;
+  for (const FilmTriangle& t : mesh.triangle)
+    for (int c = 0; c < 3; ++c) {
+      const auto [low, high] = std::minmax(t.vertex[c], t.vertex[(c + 1) % 3]);
+      const double limit = fraction * 0.5 * (target_at_vertex[low] + target_at_vertex[high]);
+      const double length_squared = norm_squared(mesh.edge(low, high));
+      if (length_squared < limit * limit) edges.push_back({length_squared, low, high});
+    }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
 WorkingMesh::WorkingMesh(FilmMesh& film_mesh, int n_cut_vertices)
     : mesh(film_mesh),
       n_cut(n_cut_vertices),
@@ -105,6 +120,7 @@ void WorkingMesh::remove(const std::vector<char>& dead_triangle) {
   mesh.triangle.resize(n_kept);
 
   const std::vector<int> new_index = drop_unused_vertices(mesh);
+  for (int v = 0; v < n_cut; ++v) expects(new_index[v] == v, "vertices on a cut keep their numbers");
   for (std::size_t v = 0; v < new_index.size(); ++v)
     if (new_index[v] >= 0) {
       phases[new_index[v]] = phases[v];

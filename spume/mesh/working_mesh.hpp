@@ -49,6 +49,10 @@ class VertexStars {
 /// Wanted edge length at each vertex [m].
 std::vector<double> targets_at_vertices(const FilmMesh& mesh, const TargetLength& target);
 
+/// Edges shorter than a fraction of their target, the mean of those at their ends; each once, sorted.
+std::vector<EdgeLength> edges_below(const FilmMesh& mesh, const std::vector<double>& target_at_vertex,
+                                    double fraction);
+
 /// A mesh while it is being remeshed, with what every operation must keep up to date.
 struct WorkingMesh {
   /// The first n_cut vertices are used by triangles that are not in this mesh, which is a part of another:
@@ -66,7 +70,7 @@ struct WorkingMesh {
   bool is_cut(int v) const { return v < n_cut; }
   /// Adds a vertex and gives its number.
   int add_vertex(const Vec3& position, const PhaseSet& vertex_phases, bool is_held);
-  /// Removes the marked triangles and the vertices that nothing uses any more.
+  /// Removes the marked triangles and the vertices that nothing uses any more, none of which is on a cut.
   void remove(const std::vector<char>& dead_triangle);
 
   FilmMesh& mesh;

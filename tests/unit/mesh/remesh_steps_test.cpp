@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <numbers>
+#include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "spume/base/random.hpp"
@@ -222,6 +224,82 @@ TEST(Flip, keeps_to_one_film) {
   mesh.triangle[1].phase_b = 3;
   WorkingMesh work(mesh);
   EXPECT_EQ(flip_edges(work), 0);
+}
+
+TEST(Flip, does_not_trust_what_a_part_tells_of_a_vertex_on_its_cut) {
+  FilmMesh mesh = flat_quad();
+  std::swap(mesh.position[0], mesh.position[2]);  // the corner that the new edge would start from is first
+  for (FilmTriangle& t : mesh.triangle)
+    for (int& v : t.vertex)
+      if (v == 0 || v == 2) v = 2 - v;
+  FilmMesh other = mesh;
+  {
+    WorkingMesh work(mesh, 1);
+    work.phases[3] = PhaseSet{1, 2, 3};  // on a border, and vertex 0 may be, too
+    EXPECT_EQ(flip_edges(work), 0);
+    work.phases[3] = PhaseSet{1, 2};
+    EXPECT_EQ(flip_edges(work), 1);
+  }
+  // The edge is there already, but the triangles of vertex 0 beside it are not joined to the quad in this
+  // part; those around vertex 3 are.
+  const double back = -2 * length;
+  other.position.insert(other.position.end(), {{length, 0, back}, {-length, 0, back}});
+  for (const auto& [a, b] : {std::pair{2, 5}, {5, 0}, {0, 4}, {4, 1}})
+    other.triangle.push_back(make_triangle(a, b, 3, 1, 2));
+  const FilmMesh before = other;
+  WorkingMesh work(other, 1);
+  flip_edges(work);
+  EXPECT_EQ(build_topology(other).n_nonconforming_edges, build_topology(before).n_nonconforming_edges);
+}
+
+TEST(Flip, in_runs_of_one_flipper_is_that_of_a_new_one_for_each) {
+  const double radius = 8 * length;
+  const FilmMesh cluster = shapes::four_bubbles(radius, 8);
+  const Topology topology = build_topology(cluster);
+  FilmMesh one = cluster, fresh = cluster;
+  WorkingMesh work(one), fresh_work(fresh);
+  EdgeFlipper flipper(work);
+  Random random(5);
+  int n_flipped = 0;
+  for (int run = 0; run < 6; ++run) {
+    for (int v = 0; v < one.n_vertices(); ++v) {
+      const double by = 0.5 * length;
+      const Vec3 away{random.uniform(-by, by), random.uniform(-by, by), random.uniform(-by, by)};
+      one.position[v] = fresh.position[v] =
+          shapes::on_four_bubbles(radius, one.position[v] + away, topology.vertex_phases[v]);
+    }
+    const int n = flipper.run();
+    EXPECT_EQ(n, EdgeFlipper(fresh_work).run());
+    n_flipped += n;
+    for (int t = 0; t < one.n_triangles(); ++t) ASSERT_EQ(one.triangle[t].vertex, fresh.triangle[t].vertex);
+    EXPECT_EQ(build_topology(one).n_nonconforming_edges, 0);
+  }
+  EXPECT_GT(n_flipped, one.n_triangles() / 2);  // many an edge more than once
+}
+
+TEST(Flip, goes_back_when_the_vertices_do) {
+  FilmMesh mesh = flat_quad();
+  WorkingMesh work(mesh);
+  EdgeFlipper flipper(work);
+  EXPECT_EQ(flipper.run(), 1);
+  EXPECT_EQ(flipper.run(), 0);
+  const auto is_joined = [&](int a, int b) {
+    return std::ranges::any_of(build_edges(mesh).edge,
+                               [&](const MeshEdge& e) { return e.low == a && e.high == b; });
+  };
+  EXPECT_TRUE(is_joined(2, 3));
+  for (Vec3& x : mesh.position) x = {0.4 * x.x, 2.5 * x.y, 0};  // as high as it was wide
+  EXPECT_EQ(flipper.run(), 1);
+  EXPECT_EQ(flipper.run(), 0);
+  EXPECT_TRUE(is_joined(0, 1));
+}
+
+TEST(WorkingMesh, vertices_on_a_cut_keep_their_numbers) {
+  FilmMesh mesh = flat_quad();
+  WorkingMesh work(mesh, 3);
+  EXPECT_NO_THROW(work.remove({0, 1}));  // vertex 3 goes
+  EXPECT_EQ(mesh.n_vertices(), 3);
+  EXPECT_THROW(work.remove({1}), std::logic_error);
 }
 
 TEST(Smooth, moves_film_and_border_vertices_as_documented_and_junctions_not_at_all) {
