@@ -219,6 +219,11 @@ mesh::Topology tidy(const grid::Grid& grid, const Case& run_case, const mesh::To
   return tidied;
 }
 
+/// Mean length of the edges of a mesh of nearly equal triangles [m].
+double mean_edge(const mesh::FilmMesh& films) {
+  return std::sqrt(4 / std::sqrt(3.0) * mesh::film_area(films) / std::max(1, films.n_triangles()));
+}
+
 /// What a reconstruction without a topological change has added to the area, for the steps that follow to
 /// take off again.
 class Regain {
@@ -254,6 +259,7 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
   fine_case.reconstruct.edge = 0.65;
   fine_case.reconstruct.remesh.split_above = 1.25;
   fine_case.reconstruct.remesh.merge_below /= fine_case.reconstruct.edge;
+  const bool came_fine = mean_edge(foam.films) < 0.8 * h;
   bool is_fine = false;
   Descent descent(mean_bubble_radius(foam.phases), largest_step_cells * h);
   Regain regain;
@@ -277,7 +283,8 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
     const bool vanishing =
         (at_rest || motion > least_motion_cells) && wear.has_vanishing_films(foam.films, topology);
     if (motion < largest_motion_cells && !at_rest && !poor && !vanishing) continue;
-    if (at_rest && is_fine && !poor && !vanishing) {
+    const bool on_fine_mesh = is_fine || (came_fine && report.n_reconstructions == 0);
+    if (at_rest && on_fine_mesh && !poor && !vanishing) {
       // The virial identity was measured where the step started, which may be ahead of the films.
       report.converged = !descent.went_ahead();
       if (report.converged) break;
