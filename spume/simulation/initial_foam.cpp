@@ -72,7 +72,8 @@ void take_films(const FilmsSource& source, const InitialFoam& start, state::Foam
 
 }  // namespace
 
-void make_initial_foam(const Case& run_case, state::Foam& foam, std::vector<state::Event>& events) {
+void make_initial_foam(const Case& run_case, state::Foam& foam, std::vector<state::Event>& events,
+                       const OnRelaxStep& on_step) {
   const grid::Grid& grid = foam.gas.pressure.grid();
   const auto& start = run_case.foam;
   if (start.films) {
@@ -86,8 +87,7 @@ void make_initial_foam(const Case& run_case, state::Foam& foam, std::vector<stat
   };
   wet();
   if (start.equilibrate) {
-    const auto result =
-        equilibrate(grid, run_case, foam, events, [](const auto&, const auto&) { return true; });
+    const auto result = equilibrate(grid, run_case, foam, events, on_step);
     events.push_back({0, result.converged ? "equilibrated" : "equilibrium not reached",
                       fmt::format("{} steps; {} reconstructions; {}", result.n_steps,
                                   result.n_reconstructions, virial_text(result))});

@@ -50,7 +50,7 @@ void ProgressLine::show(const ProgressState& state) {
   const double now = wall_seconds() - started_;
   if (last_shown_ >= 0 && now - last_shown_ < shortest_interval) return;
   last_shown_ = now;
-  std::string line = fmt::format("{:<10} t = {:<9.4g} s  dt = {:.2e} s", state.stage, state.time, state.dt);
+  std::string line = fmt::format("{:<11} t = {:<9.4g} s  dt = {:.2e} s", state.stage, state.time, state.dt);
   if (!state.limited_by.empty()) line += fmt::format(" ({})", state.limited_by);
   line += fmt::format("  bubbles {}  ruptures {}  {}", state.bubbles, state.ruptures, spoken(now));
   // The first instants of a run say nothing of the rest.

@@ -103,6 +103,22 @@ std::string text_of(const RunSummary& summary) {
       summary.film_area, summary.liquid_error);
 }
 
+/// The foam of time 0. Throws Interrupted when the user stops its relaxation.
+void start_foam(const parallel::Communicator& communicator, const Case& run_case, const RunOptions& options,
+                RunState& run, std::vector<state::Event>& events) {
+  ProgressLine progress(options.progress && communicator.is_root());
+  int n_steps = 0;
+  make_initial_foam(run_case, run.foam, events, [&](const auto&, const auto&) {
+    progress.show({.stage = "equilibrate",
+                   .limited_by = fmt::format("step {} of a relaxation without gas", ++n_steps),
+                   .bubbles = run.foam.phases.n_bubbles()});
+    if (communicator.any(stop_flag().load()))
+      throw Interrupted("stopped while the foam of time 0 came to equilibrium; nothing was saved");
+    return true;
+  });
+  run.bubbles_at_start = run.foam.phases.n_bubbles();
+}
+
 RunSummary go_on(const parallel::Communicator& communicator, const Case& run_case, const fs::path& folder,
                  const RunOptions& options, RunState& run, Diary& diary) {
   const auto started = std::chrono::steady_clock::now();
@@ -134,8 +150,7 @@ RunSummary run(const parallel::Communicator& communicator, const Case& run_case,
   const grid::Grid grid(communicator, run_case.box);
   RunState run(grid);
   std::vector<state::Event> events;
-  make_initial_foam(run_case, run.foam, events);
-  run.bubbles_at_start = run.foam.phases.n_bubbles();
+  start_foam(communicator, run_case, options, run, events);
 
   communicator.on_root([&] {
     clear(folder);

@@ -24,7 +24,8 @@ struct RunSummary {
 
 /// Runs a case into a new output folder. `resolved_case` is the text of the case file with every default, to
 /// be stored. Collective. Throws InputError when the folder holds a run and `force` is not set, or other
-/// files.
+/// files; Interrupted, and leaves the folder as it was, when the user stops it before the foam of time 0 is
+/// there.
 RunSummary run(const parallel::Communicator& communicator, const Case& run_case,
                const std::string& resolved_case, const std::filesystem::path& folder,
                const RunOptions& options);

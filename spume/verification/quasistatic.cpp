@@ -102,6 +102,23 @@ void random_cluster(const parallel::Communicator& communicator, Report& report) 
   report.told("time to rest [s]", area_after.back().first, "one core");
 }
 
+void random_foam(const parallel::Communicator& communicator, Report& report) {
+  constexpr int count = 60;
+  auto run_case = cube_case(units_of_laplace_number(1e3), 64, 10);
+  run_case.foam.lattice = simulation::LatticeShape{
+      .structure = simulation::LatticeShape::Structure::Random, .count = count, .spread = 0.2};
+  FoamRun run(communicator, run_case);
+  const std::clock_t start = std::clock();
+  const auto relaxed = simulation::equilibrate(run.grid(), run.run_case(), run.foam(), run.events,
+                                               [](const auto&, const auto&) { return true; });
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  report.at_most("60 bubbles that fill a periodic box, 64³: area to fall at rest",
+                 relaxed.converged ? relaxed.area_to_fall : 1, 1e-5, "estimated from the last steps");
+  report.told("steps", relaxed.n_steps, "until rest");
+  report.told("reconstructions", relaxed.n_reconstructions, "until rest");
+  report.told("time to rest [s]", communicator.max(seconds), "one core");
+}
+
 }  // namespace
 
 void quasistatic(const parallel::Communicator& communicator, Scale scale, Report& report) {
@@ -113,7 +130,9 @@ void quasistatic(const parallel::Communicator& communicator, Scale scale, Report
     unequal_pair(communicator, cells_per_radius, {area, virial}, report);
     five_bubbles(communicator, cells_per_radius, {area, virial}, report);
   }
-  if (scale == Scale::Full) random_cluster(communicator, report);
+  if (scale == Scale::Small) return;
+  random_cluster(communicator, report);
+  random_foam(communicator, report);
 }
 
 }  // namespace spume::verification

@@ -70,21 +70,11 @@ TEST(Equilibrate, finds_the_tetrahedral_cluster) {
   EXPECT_NEAR(mesh::film_area(relaxed.foam.films) / exact, 1, 1e-3);
 }
 
-/// Of triangles in lamellae of at least `smallest_area` [m²].
-double smallest_angle_degrees(const mesh::FilmMesh& films, const mesh::Topology& topology,
-                              double smallest_area) {
-  const auto area = mesh::lamella_areas(films, topology);
-  mesh::FilmMesh counted = films;
-  counted.triangle.clear();
-  for (int t = 0; t < films.n_triangles(); ++t)
-    if (area[topology.triangle_lamella[t]] >= smallest_area) counted.triangle.push_back(films.triangle[t]);
-  mesh::drop_unused_vertices(counted);
-  return mesh::measure_quality(counted, mesh::build_topology(counted)).smallest_angle_degrees;
-}
-
-// Clusters of six have films between four borders that shrink below a cell.
+// Clusters of six have films between four borders that shrink below a cell. Of the first sixteen seeds these
+// six are the hardest: a film may remain in equilibrium that is about as small as what vanishes.
 TEST(Equilibrate, leaves_no_tiny_edges_in_random_clusters) {
-  for (std::uint64_t seed : {1, 2, 5}) {
+  int n_below_limits = 0;
+  for (std::uint64_t seed : {1, 2, 5, 10, 14, 16}) {
     Case run_case = empty_case(46);
     run_case.foam.cluster =
         ClusterShape{.count = 6, .mean_diameter = 11 * h, .spread = 0.2, .seed = seed, .center = {}};
@@ -94,11 +84,25 @@ TEST(Equilibrate, leaves_no_tiny_edges_in_random_clusters) {
     const mesh::Quality quality = mesh::measure_quality(relaxed.foam.films, topology);
     EXPECT_TRUE(relaxed.report.converged) << "seed " << seed;
     EXPECT_EQ(topology.n_nonconforming_edges, 0) << "seed " << seed;
-    EXPECT_GT(quality.shortest_edge, 0.2 * h) << "seed " << seed;
-    // Of a film smaller than what is drawn together as tiny, a lens of one triangle may be left.
-    EXPECT_GT(smallest_angle_degrees(relaxed.foam.films, topology, 0.09 * h * h), 15) << "seed " << seed;
+    EXPECT_GT(quality.shortest_edge, 0.15 * h) << "seed " << seed;
+    EXPECT_GT(quality.smallest_angle_degrees, 12) << "seed " << seed;
+    n_below_limits += quality.shortest_edge < 0.2 * h || quality.smallest_angle_degrees < 15;
     EXPECT_LT(relaxed.largest_rise, 1e-4) << "seed " << seed;  // by reconstructions; 4e-5 measured
   }
+  EXPECT_LE(n_below_limits, 1);
+}
+
+// In a foam that fills a box films change places one after the other, and soft modes decide how long it
+// takes to rest. Without going ahead, and with a reconstruction for every poor triangle, it took 83 steps and
+// 13 reconstructions here; 65 and 6 are measured now.
+TEST(Equilibrate, takes_few_reconstructions_in_a_foam_that_fills_the_box) {
+  Case run_case = empty_case(32);
+  run_case.foam.lattice =
+      LatticeShape{.structure = LatticeShape::Structure::Random, .count = 12, .spread = 0.2};
+  const grid::Grid grid(parallel::Communicator::world(), run_case.box);
+  const Relaxed relaxed = relax(grid, run_case);
+  EXPECT_TRUE(relaxed.report.converged);
+  EXPECT_LE(relaxed.report.n_reconstructions, 9);
 }
 
 }  // namespace
