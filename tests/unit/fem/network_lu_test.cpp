@@ -144,18 +144,6 @@ TEST(NetworkLu, solves_on_a_lattice_with_many_junctions) {
   expect_solves(network);
 }
 
-TEST(NetworkLu, solves_on_a_long_chain_with_free_ends_however_stiff) {
-  Network network;
-  const int start = network.add_unknown();
-  network.add_chain(start, network.add_unknown(), 300);
-  NetworkLu lu(network.n_unknowns, network.link);
-  for (double s : {1e7, 1e10}) {
-    const Values values = flux_matrix(network, s, 4);
-    ASSERT_TRUE(lu.factorise(values.diagonal, values.coupling));
-    EXPECT_LT(error_of_solve(lu, network, values), 1e-15 * s);
-  }
-}
-
 TEST(NetworkLu, wants_as_many_values_as_there_are_unknowns_and_links) {
   const Network network = all_kinds();
   NetworkLu lu(network.n_unknowns, network.link);
