@@ -49,6 +49,9 @@ using ThinnestPoint = std::function<state::ThinPoint(const state::FilmNetwork&)>
 /// the same bits, which do not depend on their number, and calls `thinnest` and `on_step`, which must answer
 /// alike on all of them. Throws InputError for materials or parameters that make no sense, NumericalError
 /// where η or λ is not positive at the start or no step is accepted, on all ranks together. Collective.
+/// A stage is a function of the network at its start, to the bit. It ends otherwise, within the tolerance, if
+/// it is cut in two, for the second part begins with a first step and factors of its own; a run that was
+/// killed therefore repeats the stage from its start.
 DrainageOutcome drain(state::FilmNetwork& network, const state::Materials& materials,
                       const DrainageParameters& parameters, double threshold, const ThinnestPoint& thinnest,
                       const OnStep& on_step,

@@ -54,10 +54,11 @@ BorderFlux border_flux(const BorderRoot& a, const BorderRoot& b, const BorderLin
   const double mean = 0.5 * (area_a + area_b);
   const double slope_a = mean * b.root * a.inverse + between + area_b;  // of 3 × the mobility, by a
   const double slope_b = mean * a.root * b.inverse + between + area_a;
-  const double drive = 2 * c1 * (b.inverse - a.inverse) + rho * link.descent;
+  const double weight = rho * link.descent;
+  const double drive = 2 * c1 * (b.inverse - a.inverse) + weight;
   return {conductance * mobility * drive,
-          {conductance * (slope_a * drive + mobility * c1 * a.inverse * a.inverse * a.inverse),
-           conductance * (slope_b * drive - mobility * c1 * b.inverse * b.inverse * b.inverse)}};
+          {conductance * (slope_a * weight + 3 * c1 * a.root),
+           conductance * (slope_b * weight - 3 * c1 * b.root)}};
 }
 
 void add_border_flow(const BorderNetwork& borders, std::span<const BorderRoot> root,

@@ -54,6 +54,9 @@ struct BorderFlux {
 /// with C₁ = ½ σ (√3 − π/2)^{1/2}; it approximates (C_Δ/μ)(−C₁ λ^{1/2} ∂λ/∂ℓ + λ² ρ g_τ). The mean of λ² is
 /// the one with which the capillary part, −C₁ (2/3)(b^{3/2} − a^{3/2})/h, is the integral of λ^{1/2} ∂λ/∂ℓ
 /// exactly, however much λ varies along the edge; and it vanishes with either end.
+///   Tension adds 2 C₁ (C_Δ/3μh)(a^{3/2} − b^{3/2}) to F, and to the slopes C₁ (C_Δ/μh) a^{1/2} and
+/// −C₁ (C_Δ/μh) b^{1/2}: they are written so, for in the product of mobility and drive digits cancel where
+/// the ends differ much.
 BorderFlux border_flux(const BorderRoot& a, const BorderRoot& b, const BorderLink& link,
                        const state::Materials& materials);
 

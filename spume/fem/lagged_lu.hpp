@@ -33,7 +33,8 @@ class LaggedLu {
 
  private:
   static constexpr int most_iterations = 10;
-  /// A factorisation takes the time of 14 to 20 iterations on films of 750 to 8,000 unknowns.
+  /// A factorisation takes the time of 25 to 15 iterations on films of 750 to 17,000 unknowns; from 12 to 24,
+  /// the whole time changes by 5 % (docs/decisions/0007-positive-drainage.md).
   static constexpr int worth_of_factorisation = 16;
 
   bool factorise();

@@ -28,7 +28,7 @@ std::vector<std::vector<int>> links_of(int n_unknowns, Links link) {
 
 }  // namespace
 
-NetworkLu::NetworkLu(int n_unknowns, Links link) {
+NetworkLu::NetworkLu(int n_unknowns, Links link) : n_links_(link.size()) {
   find_chains(n_unknowns, link);
   build_junction_pattern();
   row_.resize(unknown_.size());
@@ -45,25 +45,20 @@ void NetworkLu::find_chains(int n_unknowns, Links link) {
     unknown_done[u] = true;
     junction_.push_back(u);
   };
-  // Follows a chain from an unknown, itself inside if it is no junction.
-  const auto follow = [&](int at, int next_link) {
+  const auto follow = [&](int at, int next_link) {  // a chain from a junction
     Chain chain{
         junction_of[at], -1, static_cast<int>(unknown_.size()), 0, static_cast<int>(link_.size()), {}};
-    if (chain.start < 0) link_.push_back(-1);
-    for (;;) {
-      if (junction_of[at] < 0) {
-        unknown_.push_back(at);
-        unknown_done[at] = true;
-        for (int l : links[at])
-          if (!link_done[l]) next_link = l;
-      }
-      if (next_link < 0 || link_done[next_link]) break;
+    while (!link_done[next_link]) {
       link_done[next_link] = true;
       const bool along = link[next_link][0] == at;
       link_.push_back(2 * next_link + (along ? 1 : 0));
       at = link[next_link][along ? 1 : 0];
       chain.end = junction_of[at];
       if (chain.end >= 0) break;
+      unknown_.push_back(at);
+      unknown_done[at] = true;
+      for (int l : links[at])
+        if (!link_done[l]) next_link = l;
     }
     if (chain.end < 0) link_.push_back(-1);
     chain.last = static_cast<int>(unknown_.size());
@@ -76,13 +71,17 @@ void NetworkLu::find_chains(int n_unknowns, Links link) {
   for (int u = 0; u < n_unknowns; ++u)
     if (links[u].size() > 2) add_junction(u);
   for (std::size_t j = 0; j < junction_.size(); ++j) follow_all(junction_[j]);
-  for (int u = 0; u < n_unknowns; ++u)
-    if (!unknown_done[u] && links[u].size() < 2) follow(u, -1);
-  for (int u = 0; u < n_unknowns; ++u)
-    if (!unknown_done[u]) {  // a ring
-      add_junction(u);
-      follow_all(u);
-    }
+  // What meets no junction gets one. The last pivot of a free chain would be all that the chain stores, the
+  // difference of numbers as much larger as the matrix is stiff, and look like one that needs exchanging.
+  const auto follow_from = [&](auto is_first) {
+    for (int u = 0; u < n_unknowns; ++u)
+      if (!unknown_done[u] && is_first(u)) {
+        add_junction(u);
+        follow_all(u);
+      }
+  };
+  follow_from([&](int u) { return links[u].size() < 2; });
+  follow_from([](int) { return true; });  // rings
 }
 
 void NetworkLu::build_junction_pattern() {
@@ -91,7 +90,7 @@ void NetworkLu::build_junction_pattern() {
   std::vector<std::set<int>> rows(n);  // of each column
   for (int j = 0; j < n; ++j) rows[j].insert(j);
   for (const Chain& chain : chain_) {
-    if (chain.start < 0 || chain.end < 0) continue;
+    if (chain.end < 0) continue;
     rows[chain.start].insert(chain.end);
     rows[chain.end].insert(chain.start);
   }
@@ -101,7 +100,7 @@ void NetworkLu::build_junction_pattern() {
     offset.push_back(static_cast<int>(row.size()));
   }
   const auto position = [&](int i, int j) {
-    if (i < 0 || j < 0) return -1;
+    if (i < 0 || j < 0) return -1;  // of a free end
     return static_cast<int>(std::lower_bound(row.begin() + offset[j], row.begin() + offset[j + 1], i) -
                             row.begin());
   };
@@ -115,6 +114,7 @@ void NetworkLu::build_junction_pattern() {
 
 bool NetworkLu::factorise(std::span<const double> diagonal, std::span<const std::array<double, 2>> coupling) {
   expects(diagonal.size() == unknown_.size() + junction_.size(), "one diagonal entry per unknown");
+  expects(coupling.size() == n_links_, "one pair of entries per link");
   std::fill(schur_.begin(), schur_.end(), 0.0);
   for (std::size_t j = 0; j < junction_.size(); ++j)
     schur_[diagonal_of_junction_[j]] = diagonal[junction_[j]];
@@ -128,7 +128,7 @@ bool NetworkLu::factorise(std::span<const double> diagonal, std::span<const std:
 bool NetworkLu::eliminate(const Chain& chain, std::span<const double> diagonal, const double* coupling) {
   const int* link = link_.data() + chain.first_link;
   // Entries of the row that follows in the column of the start, and of the row of the start in its column.
-  double start = *link < 0 ? 0 : coupling[*link], from_start = *link < 0 ? 0 : coupling[*link ^ 1];
+  double start = coupling[*link], from_start = coupling[*link ^ 1];
   double at_start = 0, taken = 0;  // from the diagonals of the start and of what follows
   for (int k = chain.first; k < chain.last; ++k) {
     ++link;
@@ -144,7 +144,7 @@ bool NetworkLu::eliminate(const Chain& chain, std::span<const double> diagonal, 
     start *= -row.to_next;
     from_start = -row.to_start * next;
   }
-  if (chain.schur.start >= 0) schur_[chain.schur.start] -= at_start;
+  schur_[chain.schur.start] -= at_start;
   if (chain.schur.end >= 0) schur_[chain.schur.end] -= taken;
   if (chain.schur.end_start >= 0) {
     schur_[chain.schur.end_start] += start;
@@ -164,13 +164,13 @@ void NetworkLu::solve(std::span<double> right) {
       of_start += row_[k].to_start * value;
       carried = row_[k].to_next * value;
     }
-    if (chain.start >= 0) right_of_junctions_[chain.start] -= of_start;
+    right_of_junctions_[chain.start] -= of_start;
     if (chain.end >= 0) right_of_junctions_[chain.end] -= carried;
   }
   if (junction_lu_) junction_lu_->solve(right_of_junctions_);
   for (std::size_t j = 0; j < junction_.size(); ++j) right[junction_[j]] = right_of_junctions_[j];
   for (const Chain& chain : chain_) {
-    const double at_start = chain.start < 0 ? 0 : right_of_junctions_[chain.start];
+    const double at_start = right_of_junctions_[chain.start];
     double next = chain.end < 0 ? 0 : right_of_junctions_[chain.end];
     for (int k = chain.last - 1; k >= chain.first; --k) {
       const Row& row = row_[k];

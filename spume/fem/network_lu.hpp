@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -32,16 +33,17 @@ class NetworkLu {
   /// Replaces the right side by the solution of A x = right.
   void solve(std::span<double> right);
 
-  /// Unknowns that are not inside chains: where three or more links meet, and one of each ring.
+  /// Unknowns that are not inside chains: where three or more links meet, one of each ring and an end of each
+  /// chain that meets no junction.
   int n_junctions() const { return static_cast<int>(junction_.size()); }
 
  private:
-  /// Where an entry of the matrix of the junctions is stored, −1 for none.
+  /// Where an entry of the matrix of the junctions is stored, −1 for none, at a free end.
   struct Corner {
     int start = -1, end = -1, start_end = -1, end_start = -1;  ///< row, then column
   };
   struct Chain {
-    int start, end;   ///< junctions at its ends, −1 where it ends freely
+    int start, end;   ///< junctions at its ends, the latter −1 where it ends freely
     int first, last;  ///< its unknowns are unknown_[first … last)
     int first_link;   ///< its links are link_[first_link … first_link + last − first]
     Corner schur;
@@ -57,6 +59,7 @@ class NetworkLu {
   void build_junction_pattern();
   bool eliminate(const Chain& chain, std::span<const double> diagonal, const double* coupling);
 
+  std::size_t n_links_;
   std::vector<int> junction_;  ///< its unknown
   std::vector<Chain> chain_;
   std::vector<int> unknown_;   ///< inside chains, one chain after the other
@@ -65,7 +68,7 @@ class NetworkLu {
   std::vector<double> right_;  ///< the same
   std::vector<int> diagonal_of_junction_;  ///< where its entry is in schur_
   std::vector<double> schur_, right_of_junctions_;
-  std::optional<SparseLu> junction_lu_;  ///< none without junctions
+  std::optional<SparseLu> junction_lu_;  ///< none without unknowns
 };
 
 }  // namespace spume::fem

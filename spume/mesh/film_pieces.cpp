@@ -26,27 +26,50 @@ bool lie_as_stored(const FilmMesh& mesh) {
          });
 }
 
-/// Goes from vertex to vertex over all triangles that hang together with `first`, which stays as stored, and
-/// puts each vertex near the one that it is reached from.
-void put_together(const FilmMesh& mesh, const Topology& topology, int first, std::vector<char>& placed,
+/// Whether a piece runs into its own image along every axis that has images, so that any of them will do.
+bool any_image_will_do(const Domain& domain, const std::array<bool, 3>& bounded) {
+  for (int d = 0; d < 3; ++d)
+    if (domain.periodic[d] && bounded[d]) return false;
+  return true;
+}
+
+/// What has been reached so far, and the vertices to go on from.
+struct Reached {
+  std::vector<char> vertex, triangle;
+  std::vector<int> open;
+};
+
+/// Goes from vertex to vertex over all triangles that hang together with `first`, which stays as stored, once
+/// over each, and puts each vertex near the one that it is reached from. Where a triangle lies apart all the
+/// same, the piece goes through the box; once it does so along all axes that have images, the rest stays as
+/// stored.
+void put_together(const FilmMesh& mesh, const Topology& topology, int first, Reached& reached,
                   FilmPieces& pieces) {
-  std::vector<int> open{first};
-  placed[first] = 1;
-  while (!open.empty()) {
-    const int v = open.back();
-    open.pop_back();
-    for (int s = topology.star_offset[v]; s < topology.star_offset[v + 1]; ++s)
-      for (int to : mesh.triangle[topology.star_triangle[s]].vertex) {
-        const Vec3 x = mesh.domain.near(mesh.position[to], pieces.position[v]);
-        if (!placed[to]) {
-          placed[to] = 1;
-          pieces.position[to] = x;
-          open.push_back(to);
+  const Domain& domain = mesh.domain;
+  std::array<bool, 3>& bounded = pieces.bounded[pieces.of_vertex[first]];
+  reached.open.push_back(first);
+  reached.vertex[first] = 1;
+  while (!reached.open.empty()) {
+    const int v = reached.open.back();
+    reached.open.pop_back();
+    const Vec3 here = pieces.position[v];
+    for (int s = topology.star_offset[v]; s < topology.star_offset[v + 1]; ++s) {
+      const int t = topology.star_triangle[s];
+      if (reached.triangle[t]) continue;
+      reached.triangle[t] = 1;
+      for (int to : mesh.triangle[t].vertex) {
+        Vec3& x = pieces.position[to];
+        if (!reached.vertex[to]) {
+          reached.vertex[to] = 1;
+          x = domain.near(x, here);
+          reached.open.push_back(to);
+        } else if (!together(domain, x, here)) {
+          for (int d = 0; d < 3; ++d)
+            if (domain.periodic[d] && std::abs(x[d] - here[d]) > 0.5 * domain.size[d]) bounded[d] = false;
+          if (any_image_will_do(domain, bounded)) return reached.open.clear();
         }
-        for (int d = 0; d < 3; ++d)
-          if (mesh.domain.periodic[d] && std::abs(x[d] - pieces.position[to][d]) > 0.5 * mesh.domain.size[d])
-            pieces.bounded[pieces.of_vertex[v]][d] = false;
       }
+    }
   }
 }
 
@@ -69,9 +92,11 @@ FilmPieces film_pieces(const FilmMesh& mesh, const Topology& topology) {
           piece_of_lamella[topology.triangle_lamella[topology.star_triangle[topology.star_offset[v]]]];
   if (lie_as_stored(mesh)) return pieces;
 
-  std::vector<char> placed(mesh.position.size(), 0);
+  Reached reached{std::vector<char>(mesh.position.size(), 0), std::vector<char>(mesh.triangle.size(), 0), {}};
   for (int v = 0; v < mesh.n_vertices(); ++v)
-    if (!placed[v] && pieces.of_vertex[v] >= 0) put_together(mesh, topology, v, placed, pieces);
+    if (!reached.vertex[v] && pieces.of_vertex[v] >= 0 &&
+        !any_image_will_do(mesh.domain, pieces.bounded[pieces.of_vertex[v]]))
+      put_together(mesh, topology, v, reached, pieces);
   return pieces;
 }
 

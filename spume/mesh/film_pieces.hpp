@@ -16,7 +16,7 @@ struct FilmPieces {
   /// Of each vertex, the image that belongs to its piece in one [m].
   std::vector<Vec3> position;
   /// Of each piece, the axes along which it does not run into its own image. Along the others it goes
-  /// through the whole box, and `position` is one image of many.
+  /// through the whole box, and `position` is any image, not always the one near its neighbours.
   std::vector<std::array<bool, 3>> bounded;
 };
 

@@ -54,6 +54,40 @@ TEST(BorderFlux, slopes_are_the_derivatives) {
   EXPECT_NEAR(at.slope[1], by_b, 1e-8 * std::abs(by_b));
 }
 
+TEST(BorderFlux, slopes_of_tension_alone_are_exact_even_if_the_ends_differ_by_twelve_orders) {
+  // The flux is that integral: its derivatives are the values of the root at both ends. Round-off alone.
+  const BorderLink level{{0, 1}, 2e-4, 0};
+  const double b = 1e-8, conductance = border_flow / 1e-3 * border_tension(0.034) / 2e-4;
+  for (const double ratio : {1e-12, 1e-9, 1e-3, 1.0, 1e3, 1e9, 1e12}) {
+    const double by_a = conductance * std::sqrt(ratio * b), by_b = -conductance * std::sqrt(b);
+    const BorderFlux at = flux(ratio * b, b, level);
+    EXPECT_NEAR(at.slope[0], by_a, 1e-14 * by_a) << ratio;
+    EXPECT_NEAR(at.slope[1], by_b, 1e-14 * -by_b) << ratio;
+  }
+}
+
+TEST(BorderFlux, slopes_are_those_of_mobility_times_drive_with_gravity_too) {
+  // The product differentiated as it stands, in long double, of which the largest ratio cancels six digits.
+  using Real = long double;
+  const BorderLink link{{0, 1}, 1e-4, -3e-4};
+  const Real c1 = border_tension(0.034), conductance = border_flow / (3 * 1e-3L * 1e-4L);
+  const auto slope_by_first = [&](Real a, Real b, Real weight) {
+    const Real r = std::sqrt(a), t = std::sqrt(b);
+    const Real mobility = r * t * (a + r * t + b);
+    const Real by_a = (3 * a * t + 2 * r * b + b * t) / (2 * r);
+    return conductance * (by_a * (2 * c1 * (1 / t - 1 / r) + weight) + mobility * c1 / (a * r));
+  };
+  const Real weight = 1000 * -3e-4L;
+  for (const double ratio : {1e-4, 1e-2, 0.5, 1.0, 2.0, 1e2, 1e4}) {
+    const double b = 1e-8, a = ratio * b;
+    const BorderFlux at = flux(a, b, link);
+    const auto by_a = static_cast<double>(slope_by_first(a, b, weight));
+    const auto by_b = static_cast<double>(-slope_by_first(b, a, -weight));  // the edge the other way round
+    EXPECT_NEAR(at.slope[0], by_a, 1e-12 * std::abs(by_a)) << ratio;
+    EXPECT_NEAR(at.slope[1], by_b, 1e-12 * std::abs(by_b)) << ratio;
+  }
+}
+
 TEST(BorderFlux, approximates_the_continuous_flux_to_second_order) {
   // λ(ℓ) = λ₀ (1 + ε sin qℓ) on a vertical border: (C_Δ/μ)(−C₁ λ^{1/2} λ' + λ² ρ g_τ) at the middle of the
   // edge.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <stdexcept>
 #include <vector>
 
 namespace spume::fem {
@@ -77,7 +78,7 @@ double error_of_solve(NetworkLu& lu, const Network& network, const Values& value
 void expect_solves(const Network& network) {
   NetworkLu lu(network.n_unknowns, network.link);
   unsigned seed = 1;
-  for (double s : {0.3, 30.0, 3000.0}) {
+  for (double s : {0.3, 30.0, 3000.0, 1e7}) {
     const Values values = flux_matrix(network, s, ++seed);
     ASSERT_TRUE(lu.factorise(values.diagonal, values.coupling));
     EXPECT_LT(error_of_solve(lu, network, values), 1e-15 * (10 + s));
@@ -107,7 +108,8 @@ Network all_kinds() {
 
 TEST(NetworkLu, solves_on_a_network_of_all_kinds_of_chains_as_a_dense_solver_does) {
   const Network network = all_kinds();
-  EXPECT_EQ(NetworkLu(network.n_unknowns, network.link).n_junctions(), 5);  // four, and one of the ring
+  EXPECT_EQ(NetworkLu(network.n_unknowns, network.link).n_junctions(),
+            4 + 1 + 1 + 4);  // and one of the ring, of the border with free ends, of each by itself
   expect_solves(network);
 }
 
@@ -140,6 +142,17 @@ TEST(NetworkLu, solves_on_a_lattice_with_many_junctions) {
     if (i / (m * m) + 1 < m) network.add_chain(i, i + m * m, 3);
   }
   expect_solves(network);
+}
+
+TEST(NetworkLu, wants_as_many_values_as_there_are_unknowns_and_links) {
+  const Network network = all_kinds();
+  NetworkLu lu(network.n_unknowns, network.link);
+  Values values = flux_matrix(network, 10, 3);
+  values.coupling.pop_back();
+  EXPECT_THROW(lu.factorise(values.diagonal, values.coupling), std::logic_error);
+  values = flux_matrix(network, 10, 3);
+  values.diagonal.pop_back();
+  EXPECT_THROW(lu.factorise(values.diagonal, values.coupling), std::logic_error);
 }
 
 TEST(NetworkLu, keeps_what_the_columns_sum_to_over_many_unknowns) {

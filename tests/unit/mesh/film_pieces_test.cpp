@@ -54,13 +54,35 @@ TEST(FilmPieces, LieInOnePieceWhereTheBoxCutsThem) {
 }
 
 TEST(FilmPieces, AFilmThroughTheBoxIsBoundedAcrossItOnly) {
-  for (const int shear : {0, 1}) {
-    const FilmMesh film = sheet(8, shear);
-    const Topology topology = build_topology(film);
-    ASSERT_EQ(topology.n_nonconforming_edges, 0);
-    const FilmPieces pieces = film_pieces(film, topology);
-    ASSERT_EQ(pieces.count, 1);
-    EXPECT_EQ(pieces.bounded[0], (Bounded{false, false, true}));
+  for (const int shear : {0, 1})
+    for (const bool closed_across : {true, false}) {  // without images across, the search may end early
+      FilmMesh film = sheet(8, shear);
+      film.domain.periodic[2] = closed_across;
+      const Topology topology = build_topology(film);
+      ASSERT_EQ(topology.n_nonconforming_edges, 0);
+      const FilmPieces pieces = film_pieces(film, topology);
+      ASSERT_EQ(pieces.count, 1);
+      EXPECT_EQ(pieces.bounded[0], (Bounded{false, false, true}));
+      for (int v = 0; v < film.n_vertices(); ++v)
+        EXPECT_LT(norm(film.domain.step(film.position[v], pieces.position[v])), 1e-13 * h);  // an image
+    }
+}
+
+TEST(FilmPieces, APieceInTheBoxIsPutTogetherBesideOneThatGoesThroughIt) {
+  FilmMesh films = sheet(20, 0);
+  films.domain.periodic[2] = false;
+  const int n = films.n_vertices();
+  const FilmMesh sphere = shapes::sphere({20 * h, 1 * h, 4 * h}, 2 * h, 2, 3);
+  for (const FilmTriangle& t : sphere.triangle)
+    films.triangle.push_back({{t.vertex[0] + n, t.vertex[1] + n, t.vertex[2] + n}, 0, 2});
+  for (const Vec3& x : sphere.position) films.position.push_back(films.domain.inside(x));
+  const FilmPieces pieces = film_pieces(films, build_topology(films));
+  ASSERT_EQ(pieces.count, 2);
+  EXPECT_EQ(pieces.bounded[0], (Bounded{false, false, true}));
+  EXPECT_EQ(pieces.bounded[1], (Bounded{true, true, true}));
+  for (std::size_t v = 0; v < sphere.position.size(); ++v) {
+    const Vec3 apart = pieces.position[n + v] - pieces.position[n];
+    EXPECT_LT(norm(apart - (sphere.position[v] - sphere.position[0])), 1e-13 * h * 20);
   }
 }
 
