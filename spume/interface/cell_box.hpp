@@ -97,15 +97,14 @@ void for_each_cell(const CellBox& box, Body&& body) {
 template <class Body>
 void for_each_cell_of_grid(const CellBox& box, const Lattice& lattice, Body&& body) {
   const CellBox whole = all_cells(lattice.cells);
+  const int row_length = box.end.i - box.begin.i, first = lattice.image(box.begin.i, 0, 0),
+            until_edge = std::min(row_length, lattice.cells.i - first);
   std::size_t n = 0;
   for (int k = box.begin.k; k < box.end.k; ++k)
-    for (int j = box.begin.j; j < box.end.j; ++j) {
+    for (int j = box.begin.j; j < box.end.j; ++j, n += row_length) {
       const std::size_t row = whole.offset(0, lattice.image(j, 0, 1), lattice.image(k, 0, 2));
-      int i = lattice.image(box.begin.i, 0, 0);
-      for (int m = box.begin.i; m < box.end.i; ++m, ++n) {
-        body(n, row + i);
-        if (++i == lattice.cells.i) i = 0;
-      }
+      for (int m = 0; m < until_edge; ++m) body(n + m, row + first + m);
+      for (int m = until_edge; m < row_length; ++m) body(n + m, row + m - until_edge);
     }
 }
 

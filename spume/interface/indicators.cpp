@@ -229,7 +229,7 @@ void spread_films(const grid::Grid& grid, const mesh::FilmMesh& films,
     for (const auto& [phase, sign] : {std::pair(triangle.phase_a, 1.0), std::pair(triangle.phase_b, -1.0)}) {
       if (!own.divergence[phase]) continue;
       spread.give(sign, blocks.room[phase], own.divergence[phase]->values());
-      for (const auto& [x, area] : points) cones[phase] += sign * frames.cone(phase, {x, x, x}, area);
+      for (const auto& [x, area] : points) cones[phase] += sign * frames.cone(phase, x, area);
     }
   }
   own.volume.assign(n_phases, 0.0);

@@ -196,13 +196,13 @@ PhasePotentials potentials_of(const grid::Box& box, std::span<const CellBox> cel
   for (std::size_t p = 0; p < cells.size(); ++p)
     for_each_cell_of_grid(cells[p], potentials.lattice(),
                           [&](std::size_t n, std::size_t cell) { outside.value[cell] -= indicator[p][n]; });
-  for (double& value : outside.value) value = map.distance(value);
+  map.to_distances(outside.value);
   potentials.set(std::move(outside));
 
   for (std::size_t p = 0; p < cells.size(); ++p) {
     if (cells[p].empty()) continue;
     PhaseField field{static_cast<mesh::Phase>(p), cells[p], map.distance(0), indicator[p]};
-    for (double& value : field.value) value = map.distance(value);
+    map.to_distances(field.value);
     potentials.set(std::move(field));
   }
   return potentials;

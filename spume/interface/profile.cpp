@@ -46,35 +46,42 @@ FlatFilmMap::FlatFilmMap(double variance, double floor) {
   // The slope falls monotonically from its maximum at 0 to its first zero at u = 5 − √10.
   const double first_zero = std::sqrt(variance * (5 - std::sqrt(10.0)));
   const double steepest = profile_slope(0, variance);
-  last_distance_ =
+  const double last_distance =
       bisect(0, first_zero, [&](double x) { return profile_slope(x, variance) > floor * steepest; });
-  last_value_ = flat_film_profile(last_distance_, variance);
-  last_slope_ = profile_slope(last_distance_, variance);
-  constexpr int n_steps = 1024;  // cubics between them are good to 1e-13 of the width
-  steps_per_value_ = n_steps / last_value_;
-  table_.resize(n_steps + 1);
-  for (int n = 0; n <= n_steps; ++n) {
-    const double value = last_value_ * n / n_steps;
-    const double x =
-        bisect(0, last_distance_, [&](double at) { return flat_film_profile(at, variance) < value; });
-    table_[n] = {x, 1 / (steps_per_value_ * profile_slope(x, variance))};
+  const double last_value = flat_film_profile(last_distance, variance);
+  steps_per_value_ = n_steps / last_value;
+  const auto distance_at = [&](int n) {
+    const double value = last_value * n / n_steps;
+    return bisect(0, last_distance, [&](double at) { return flat_film_profile(at, variance) < value; });
+  };
+  const auto slope_at = [&](double x) { return 1 / (steps_per_value_ * profile_slope(x, variance)); };
+  double x = distance_at(0);
+  for (int n = 0; n < n_steps; ++n) {
+    const double next = distance_at(n + 1), chord = next - x;
+    piece_.push_back({x, chord, slope_at(x) - chord, slope_at(next) - chord});
+    x = next;
   }
+  piece_.push_back({x, slope_at(x), 0, 0});
+}
+
+inline double FlatFilmMap::distance_of(double indicator, double steps_per_value, const Piece* pieces) {
+  const double place = std::abs(indicator - 0.5) * steps_per_value;
+  const int n = std::min(static_cast<int>(place), n_steps);
+  const Piece& p = pieces[n];
+  const double t = place - n;
+  const double x = p.start + t * (p.chord + (1 - t) * ((1 - t) * p.excess_at_start - t * p.excess_at_end));
+  return std::copysign(x, indicator - 0.5);
 }
 
 double FlatFilmMap::distance(double indicator) const {
-  const double value = std::abs(indicator - 0.5);
-  double x;
-  if (value >= last_value_) {
-    x = last_distance_ + (value - last_value_) / last_slope_;
-  } else {
-    const double place = value * steps_per_value_;
-    const int n = std::min(static_cast<int>(place), static_cast<int>(table_.size()) - 2);
-    const Knot &a = table_[n], &b = table_[n + 1];
-    const double t = place - n, step = b.distance - a.distance;
-    // Hermite's cubic, as the chord and what it lacks.
-    x = a.distance + t * (step + (1 - t) * ((1 - t) * (a.slope - step) - t * (b.slope - step)));
-  }
-  return indicator < 0.5 ? -x : x;
+  return distance_of(indicator, steps_per_value_, piece_.data());
+}
+
+void FlatFilmMap::to_distances(std::span<double> indicators) const {
+  const double steps_per_value = steps_per_value_;
+  const Piece* pieces = piece_.data();
+#pragma GCC ivdep
+  for (double& value : indicators) value = distance_of(value, steps_per_value, pieces);
 }
 
 }  // namespace spume::interface

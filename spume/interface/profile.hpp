@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 namespace spume::interface {
@@ -29,14 +30,20 @@ class FlatFilmMap {
   FlatFilmMap(double variance, double floor);
   /// ψ [m] of the indicator c: positive for c > ½.
   double distance(double indicator) const;
+  /// The same in place of each indicator.
+  void to_distances(std::span<double> indicators) const;
 
  private:
-  double last_distance_, last_value_, last_slope_;  ///< where the linear continuation starts
-  struct Knot {
-    double distance, slope;  ///< the slope by the number of steps
+  static constexpr int n_steps = 1024;  ///< cubics between them are good to 1e-13 of the width
+  /// Between two knots: Hermite's cubic as where it starts, its chord, and how much its slopes at both ends
+  /// exceed that, all by the number of steps.
+  struct Piece {
+    double start, chord, excess_at_start, excess_at_end;
   };
+  static double distance_of(double indicator, double steps_per_value, const Piece* pieces);
+
   double steps_per_value_;
-  std::vector<Knot> table_;  ///< at equal steps of c − ½ up to last_value_
+  std::vector<Piece> piece_;  ///< at equal steps of c − ½; the last is the straight line without end
 };
 
 }  // namespace spume::interface

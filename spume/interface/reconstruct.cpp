@@ -75,27 +75,48 @@ std::pair<PhasePotentials, std::vector<mesh::Phase>> potentials_of_resolved(
   }
 }
 
+bool settles(const ReconstructParameters& parameters) {
+  return parameters.relaxation > 0;
+}
+
+bool has_edge_below(const mesh::FilmMesh& films, double length) {
+  const auto is_below = [&](int from, int to) {
+    return norm_squared(films.edge(from, to)) < length * length;
+  };
+  return std::any_of(films.triangle.begin(), films.triangle.end(), [&](const mesh::FilmTriangle& t) {
+    const auto& [a, b, c] = t.vertex;
+    return is_below(a, b) || is_below(b, c) || is_below(c, a);
+  });
+}
+
+/// Draws together what is no longer than merge_below edges.
+void tidy(const parallel::Communicator& ranks, mesh::FilmMesh& films, const ReconstructParameters& parameters,
+          double h) {
+  mesh::RemeshParameters tidying = parameters.remesh;
+  tidying.collapse_below = tidying.merge_below;
+  tidying.smoothing_sweeps = 0;
+  const double edge_length = parameters.edge * h;
+  if (!has_edge_below(films, tidying.merge_below * edge_length)) return;
+  const auto where_it_is = [](const Vec3& x, const mesh::PhaseSet&) { return std::optional(x); };
+  mesh::remesh(
+      films, [=](const Vec3&) { return edge_length; }, where_it_is, tidying, ranks);
+}
+
 /// Relaxes a fresh mesh over a short time, by which the step in advance was longer: smooth shapes stay as
 /// they are, while the kinks beside borders go and vertices settle in the discrete minimum of the area, above
 /// which a fresh sampling of smooth films lies. What shrank to a point meanwhile is drawn together. Gives the
 /// topology of the mesh.
-mesh::Topology settle(mesh::FilmMesh& films, const state::Phases& phases,
+mesh::Topology settle(const parallel::Communicator& ranks, mesh::FilmMesh& films, const state::Phases& phases,
                       const ReconstructParameters& parameters, double h) {
   constexpr int n_steps = 2;
-  if (!(parameters.relaxation > 0) || films.triangle.empty()) return mesh::build_topology(films);
-  state::Phases measured = phases;
-  if (!parameters.conserve_volumes) measured.target_volume = mesh::phase_volumes(films, phases.count());
-  const mesh::VertexTopology vertices = mesh::build_vertex_topology(films);
-  for (int n = 0; n < n_steps; ++n)
-    relax_step(films, vertices, measured, parameters.relaxation * h * h / n_steps, 1);
-
-  mesh::RemeshParameters tidying = parameters.remesh;
-  tidying.collapse_below = tidying.merge_below;
-  tidying.smoothing_sweeps = 0;
-  const auto where_it_is = [](const Vec3& x, const mesh::PhaseSet&) { return std::optional(x); };
-  mesh::remesh(
-      films, [edge_length = parameters.edge * h](const Vec3&) { return edge_length; }, where_it_is, tidying);
-  mesh::restore_volumes(films, measured.target_volume, 3, largest_volume_step * h);
+  if (!settles(parameters) || films.triangle.empty()) return mesh::build_topology(films);
+  const std::vector<double> volume =
+      parameters.conserve_volumes ? phases.target_volume : mesh::phase_volumes(films, phases.count());
+  relax_briefly(films, mesh::build_vertex_topology(films), phases.count(), parameters.relaxation * h * h,
+                n_steps);
+  tidy(ranks, films, parameters, h);
+  // Volumes are good to a millionth by now, and two iterations make that 1e-9.
+  mesh::restore_volumes(films, volume, 2, largest_volume_step * h);
   return mesh::build_topology(films);
 }
 
@@ -144,10 +165,10 @@ Reconstruction extract_films(const grid::Grid& grid, std::shared_ptr<PhasePotent
       projection_onto(potentials), parameters.remesh, grid.communicator());
   report.times.lap("remesh");
   if (parameters.conserve_volumes)
-    report.largest_volume_displacement =
-        mesh::restore_volumes(mesh, phases.target_volume, 3, largest_volume_step * h);
+    report.largest_volume_displacement = mesh::restore_volumes(
+        mesh, phases.target_volume, settles(parameters) ? 1 : 3, largest_volume_step * h);
   report.times.lap("volumes");
-  mesh::Topology topology = settle(mesh, phases, parameters, h);
+  mesh::Topology topology = settle(grid.communicator(), mesh, phases, parameters, h);
   report.times.lap("settling");
   report.n_nonconforming_edges = topology.n_nonconforming_edges;
   require_clearance(grid, mesh);

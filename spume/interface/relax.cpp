@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,72 +16,50 @@ namespace spume::interface {
 
 namespace {
 
-/// The linear system of a step for displacements: M/τ + L, and −L x [m].
+/// The linear system of a step for displacements, M/τ + L, by triangles, and −L x [m].
 struct ImplicitStep {
-  std::vector<double> diagonal;
-  std::vector<int> row;        ///< first entry of each vertex in the next two, and one past the last
-  std::vector<int> neighbour;  ///< the other end of an edge
-  std::vector<double> weight;  ///< of the edge: minus the entry of the matrix
+  std::span<const mesh::FilmTriangle> triangle;
+  std::vector<std::array<double, 3>> side;  ///< weights of their sides: minus their entries of the matrix
+  std::vector<double> mass;                 ///< M/τ
+  std::vector<double> diagonal;             ///< of the whole matrix
   std::vector<Vec3> straightening;
 
   int size() const { return static_cast<int>(diagonal.size()); }
 };
 
-/// Half the cotangents of the corners opposite to the sides of a triangle. The cotangents of a sliver would
-/// otherwise rule the whole step; they are scaled down together, for clipped one by one they would no longer
-/// be a positive matrix, until none exceeds 20.
-std::array<double, 3> side_weights(const mesh::FilmMesh& films, int t, double doubled_area) {
+/// Half the cotangents of the corners opposite to the sides ab, bc and ca of a triangle. The cotangents of a
+/// sliver would otherwise rule the whole step; they are scaled down together, for clipped one by one they
+/// would no longer be a positive matrix, until none exceeds 20.
+std::array<double, 3> side_weights(const Vec3& ab, const Vec3& ac, double doubled_area) {
   constexpr double largest_cotangent = 20;
   if (doubled_area == 0) return {0, 0, 0};
-  const auto corner = films.corners(t);
-  std::array<double, 3> weight;
-  double largest = 0;
-  for (int c = 0; c < 3; ++c) {
-    const Vec3& apex = corner[(c + 2) % 3];
-    weight[c] = dot(corner[c] - apex, corner[(c + 1) % 3] - apex) / doubled_area;
-    largest = std::max(largest, std::abs(weight[c]));
-  }
-  const double scale = 0.5 * (largest > largest_cotangent ? largest_cotangent / largest : 1);
-  for (double& w : weight) w *= scale;
-  return weight;
+  const double at_a = dot(ab, ac), at_b = norm_squared(ab) - at_a, at_c = norm_squared(ac) - at_a;
+  const double largest = std::max({std::abs(at_a), std::abs(at_b), std::abs(at_c)});
+  const double scale =
+      largest > largest_cotangent * doubled_area ? 0.5 * largest_cotangent / largest : 0.5 / doubled_area;
+  return {scale * at_c, scale * at_a, scale * at_b};
 }
 
 /// Lumped areas over τ, and the cotangent matrix of all films.
-ImplicitStep implicit_step(const mesh::FilmMesh& films, const mesh::VertexTopology& topology, double tau) {
+ImplicitStep implicit_step(const mesh::FilmMesh& films, double tau) {
   const int n = films.n_vertices();
-  std::vector<std::array<double, 3>> side(films.triangle.size());
-  ImplicitStep step{std::vector<double>(n, 0.0), {0}, {}, {}, std::vector<Vec3>(n)};
+  ImplicitStep step{films.triangle, std::vector<std::array<double, 3>>(films.triangle.size()),
+                    std::vector<double>(n, 0.0), std::vector<double>(n, 0.0), std::vector<Vec3>(n)};
   for (int t = 0; t < films.n_triangles(); ++t) {
-    const double doubled_area = norm(mesh::doubled_area_normal(films, t));
-    side[t] = side_weights(films, t, doubled_area);
-    for (int v : films.triangle[t].vertex) step.diagonal[v] += doubled_area / (6 * tau);
+    const auto& [a, b, c] = films.triangle[t].vertex;
+    const Vec3 ab = films.edge(a, b), ac = films.edge(a, c);
+    const double doubled_area = norm(cross(ab, ac));
+    const auto& [w_ab, w_bc, w_ca] = step.side[t] = side_weights(ab, ac, doubled_area);
+    for (int v : {a, b, c}) step.mass[v] += doubled_area / (6 * tau);
+    step.diagonal[a] += w_ab + w_ca;
+    step.diagonal[b] += w_ab + w_bc;
+    step.diagonal[c] += w_bc + w_ca;
+    const Vec3 pull_ab = w_ab * ab, pull_bc = w_bc * (ac - ab), pull_ac = w_ca * ac;
+    step.straightening[a] += pull_ab + pull_ac;
+    step.straightening[b] += pull_bc - pull_ab;
+    step.straightening[c] -= pull_bc + pull_ac;
   }
-  step.neighbour.reserve(7 * static_cast<std::size_t>(n));
-  step.weight.reserve(7 * static_cast<std::size_t>(n));
-  for (int v = 0; v < n; ++v) {
-    const std::size_t first = step.neighbour.size();
-    const auto add = [&](int other, double weight) {
-      const auto known = std::find(step.neighbour.begin() + first, step.neighbour.end(), other);
-      if (known != step.neighbour.end()) {
-        step.weight[known - step.neighbour.begin()] += weight;
-      } else {
-        step.neighbour.push_back(other);
-        step.weight.push_back(weight);
-      }
-    };
-    for (int m = topology.star_offset[v]; m < topology.star_offset[v + 1]; ++m) {
-      const int t = topology.star_triangle[m];
-      const auto& corner = films.triangle[t].vertex;
-      const int c = corner[0] == v ? 0 : corner[1] == v ? 1 : 2;
-      add(corner[(c + 1) % 3], side[t][c]);
-      add(corner[(c + 2) % 3], side[t][(c + 2) % 3]);
-    }
-    for (std::size_t m = first; m < step.neighbour.size(); ++m) {
-      step.diagonal[v] += step.weight[m];
-      step.straightening[v] += step.weight[m] * films.edge(v, step.neighbour[m]);
-    }
-    step.row.push_back(static_cast<int>(step.neighbour.size()));
-  }
+  for (int v = 0; v < n; ++v) step.diagonal[v] += step.mass[v];
   return step;
 }
 
@@ -93,22 +72,27 @@ Vec3 quotients(const Vec3& a, const Vec3& b) {
   return {quotient(a.x, b.x), quotient(a.y, b.y), quotient(a.z, b.z)};
 }
 
-/// The matrix times `in`; gives the scalar products of both by direction.
+/// The matrix times `in`; gives the scalar products of both by direction. Triangle by triangle this costs as
+/// much as row by row, and there is no matrix to be put together.
 Vec3 apply(const ImplicitStep& step, const std::vector<Vec3>& in, std::vector<Vec3>& out) {
-  Vec3 product;
-  for (int v = 0; v < step.size(); ++v) {
-    Vec3 sum = step.diagonal[v] * in[v];
-    for (int m = step.row[v]; m < step.row[v + 1]; ++m) sum -= step.weight[m] * in[step.neighbour[m]];
-    out[v] = sum;
-    product += products(sum, in[v]);
+  for (int v = 0; v < step.size(); ++v) out[v] = step.mass[v] * in[v];
+  for (std::size_t t = 0; t < step.triangle.size(); ++t) {
+    const auto& [a, b, c] = step.triangle[t].vertex;
+    const auto& [w_ab, w_bc, w_ca] = step.side[t];
+    const Vec3 ab = w_ab * (in[b] - in[a]), bc = w_bc * (in[c] - in[b]), ca = w_ca * (in[a] - in[c]);
+    out[a] += ca - ab;
+    out[b] += ab - bc;
+    out[c] += bc - ca;
   }
+  Vec3 product;
+  for (int v = 0; v < step.size(); ++v) product += products(out[v], in[v]);
   return product;
 }
 
 /// The solution for three right sides, x, y and z, by conjugate gradients with the diagonal as
-/// preconditioner, all three at a time since most of the work is to fetch the matrix.
-std::vector<Vec3> solve(const ImplicitStep& step, std::vector<Vec3> residual) {
-  constexpr double tolerance = 1e-6;  // of displacements, which are small themselves
+/// preconditioner, all three at a time since most of the work is to fetch the matrix. The residual falls to
+/// `tolerance` of the right sides.
+std::vector<Vec3> solve(const ImplicitStep& step, std::vector<Vec3> residual, double tolerance) {
   constexpr int max_iterations = 2000;
   const int n = step.size();
   std::vector<Vec3> solution(n), direction(n), image(n);
@@ -140,34 +124,45 @@ std::vector<Vec3> solve(const ImplicitStep& step, std::vector<Vec3> residual) {
   throw NumericalError("relaxation of the films failed: the linear system of a step has no usable solution");
 }
 
-void move_vertices(const ImplicitStep& step, const std::vector<Vec3>& push, mesh::FilmMesh& films) {
-  std::vector<Vec3> right = step.straightening;
-  for (int v = 0; v < step.size(); ++v) right[v] += push[v];
-  const std::vector<Vec3> displacement = solve(step, std::move(right));
+/// One step without restored volumes; gives the film pressures a unit of tension.
+std::vector<double> move_vertices(mesh::FilmMesh& films, const mesh::VertexTopology& topology, int n_phases,
+                                  double tau, double tolerance) {
+  const ImplicitStep step = implicit_step(films, tau);
+  const std::vector<double> pressure = mesh::film_pressures(films, topology, step.straightening, n_phases);
+  std::vector<Vec3> right = mesh::weighted_volume_gradient(films, pressure);
+  for (int v = 0; v < step.size(); ++v) right[v] += step.straightening[v];
+  const std::vector<Vec3> displacement = solve(step, std::move(right), tolerance);
   for (int v = 0; v < step.size(); ++v) films.position[v] += displacement[v];
+  return pressure;
 }
 
 }  // namespace
 
 RelaxStepReport relax_step(mesh::FilmMesh& films, const mesh::VertexTopology& topology,
                            const state::Phases& phases, double tau, int volume_iterations) {
+  constexpr double tolerance = 1e-6;  // of displacements, which are small themselves
   RelaxStepReport report{};
   report.area_before = mesh::film_area(films);
-  const auto pressure = mesh::film_pressures(films, topology, mesh::area_descent(films), phases.count());
   const auto volume = mesh::phase_volumes(films, phases.count());
-  if (mesh::stands_free(films, phases.count())) {
+  const bool stands_free = mesh::stands_free(films, phases.count());
+  const std::vector<Vec3> before = films.position;
+  const auto pressure = move_vertices(films, topology, phases.count(), tau, tolerance);
+  mesh::restore_volumes(films, phases.target_volume, volume_iterations, std::sqrt(tau));
+
+  if (stands_free) {
     double work = 0;
     for (int p = 1; p < phases.count(); ++p) work += pressure[p] * volume[p];
     report.virial_error = std::abs(2.0 / 3.0 * report.area_before / work - 1);
   }
-
-  const std::vector<Vec3> before = films.position;
-  move_vertices(implicit_step(films, topology, tau), mesh::weighted_volume_gradient(films, pressure), films);
-  mesh::restore_volumes(films, phases.target_volume, volume_iterations, std::sqrt(tau));
-
   report.largest_displacement = mesh::largest_distance(films.position, before);
   report.area_after = mesh::film_area(films);
   return report;
+}
+
+void relax_briefly(mesh::FilmMesh& films, const mesh::VertexTopology& topology, int n_phases, double tau,
+                   int n_steps) {
+  constexpr double tolerance = 1e-4;
+  for (int n = 0; n < n_steps; ++n) move_vertices(films, topology, n_phases, tau / n_steps, tolerance);
 }
 
 }  // namespace spume::interface

@@ -22,4 +22,10 @@ struct RelaxStepReport {
 RelaxStepReport relax_step(mesh::FilmMesh& films, const mesh::VertexTopology& topology,
                            const state::Phases& phases, double tau, int volume_iterations = 2);
 
+/// The same for a time τ in `n_steps` steps, without report and less exactly, for meshes that are nearly
+/// there: systems are solved to 1e-4 of the displacements, and volumes, which the pressures keep to first
+/// order, are not restored.
+void relax_briefly(mesh::FilmMesh& films, const mesh::VertexTopology& topology, int n_phases, double tau,
+                   int n_steps);
+
 }  // namespace spume::interface

@@ -96,15 +96,19 @@ TriangleLocator::TriangleLocator(const FilmMesh& mesh, double bin_size)
     : mesh_(&mesh), bin_size_(bin_size), n_bins_{0, 0, 0} {
   expects(bin_size > 0, "bins have a size");
   if (mesh.triangle.empty()) return;
-  const auto box_of = [&](int t, Vec3& low, Vec3& high) {
+  is_inside_ = std::ranges::all_of(mesh.position, [&](const Vec3& x) { return mesh.domain.inside(x) == x; });
+  struct Box {
+    Vec3 low, high;
+  };
+  std::vector<Box> box(mesh.triangle.size());
+  for (int t = 0; t < mesh.n_triangles(); ++t) {
     const auto [a, b, c] = stored_corners(t);
     for (int axis = 0; axis < 3; ++axis)
-      std::tie(low[axis], high[axis]) = std::minmax({a[axis], b[axis], c[axis]});
-  };
-  Vec3 low, high, corner;
-  box_of(0, origin_, corner);
-  for (int t = 0; t < mesh.n_triangles(); ++t) {
-    box_of(t, low, high);
+      std::tie(box[t].low[axis], box[t].high[axis]) = std::minmax({a[axis], b[axis], c[axis]});
+  }
+  Vec3 corner;
+  origin_ = corner = box[0].low;
+  for (const auto& [low, high] : box) {
     longest_edge_ = std::max(longest_edge_, norm(high - low));
     for (int axis = 0; axis < 3; ++axis) {
       origin_[axis] = std::min(origin_[axis], low[axis]);
@@ -117,19 +121,17 @@ TriangleLocator::TriangleLocator(const FilmMesh& mesh, double bin_size)
   while (bins_along(0) * bins_along(1) * bins_along(2) > largest_number_of_bins) bin_size_ *= 2;
   for (int axis = 0; axis < 3; ++axis) n_bins_[axis] = static_cast<int>(bins_along(axis));
 
-  const auto for_each_entry = [&](auto visit) {
-    for (int t = 0; t < mesh.n_triangles(); ++t) {
-      box_of(t, low, high);
-      for_each_bin(bins_of_box(low, high, origin_, bin_size_, n_bins_), n_bins_,
-                   [&](int bin) { visit(bin, t); });
-    }
-  };
+  std::vector<BinRange> bins(box.size());
+  std::ranges::transform(box, bins.begin(), [&](const Box& b) {
+    return bins_of_box(b.low, b.high, origin_, bin_size_, n_bins_);
+  });
   bin_offset_.assign(static_cast<std::size_t>(n_bins_[0]) * n_bins_[1] * n_bins_[2] + 1, 0);
-  for_each_entry([&](int bin, int) { ++bin_offset_[bin + 1]; });
+  for (const BinRange& range : bins) for_each_bin(range, n_bins_, [&](int bin) { ++bin_offset_[bin]; });
   std::partial_sum(bin_offset_.begin(), bin_offset_.end(), bin_offset_.begin());
   bin_triangle_.resize(bin_offset_.back());
-  std::vector<int> end(bin_offset_.begin(), bin_offset_.end() - 1);
-  for_each_entry([&](int bin, int t) { bin_triangle_[end[bin]++] = t; });
+  // From the last to the first, each before those that are there: then offsets are where bins begin.
+  for (int t = mesh.n_triangles() - 1; t >= 0; --t)
+    for_each_bin(bins[t], n_bins_, [&](int bin) { bin_triangle_[--bin_offset_[bin]] = t; });
 }
 
 SurfacePoint TriangleLocator::closest(const Vec3& x, double reach,
@@ -146,6 +148,7 @@ SurfacePoint TriangleLocator::closest(const Vec3& x, double reach,
 
 std::array<Vec3, 3> TriangleLocator::stored_corners(int t) const {
   const auto [a, b, c] = mesh_->corners(t);
+  if (is_inside_) return {a, b, c};
   const Vec3 shift = mesh_->domain.inside(a) - a;
   return {a + shift, b + shift, c + shift};
 }

@@ -39,6 +39,7 @@ class TriangleLocator {
   std::array<Vec3, 3> stored_corners(int t) const;
 
   const FilmMesh* mesh_;
+  bool is_inside_ = false;  ///< every vertex is stored in the box
   double bin_size_, longest_edge_ = 0;
   Vec3 origin_;
   std::array<int, 3> n_bins_;

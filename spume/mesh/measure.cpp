@@ -52,11 +52,12 @@ std::vector<double> phase_volumes(const FilmMesh& mesh, int n_phases) {
   const PhaseFrames frames(mesh, n_phases);
   std::vector<double> volume(n_phases, 0.0);
   for (int t = 0; t < mesh.n_triangles(); ++t) {
-    const auto& triangle = mesh.triangle[t];
-    const auto corner = mesh.corners(t);
-    const Vec3 area = 0.5 * doubled_area_normal(mesh, t);
-    volume[triangle.phase_a] += frames.cone(triangle.phase_a, corner, area);
-    volume[triangle.phase_b] -= frames.cone(triangle.phase_b, corner, area);
+    const auto& [v, a, b] = mesh.triangle[t];
+    const Vec3 first = mesh.edge(v[0], v[1]), second = mesh.edge(v[0], v[2]),
+               area = 0.5 * cross(first, second),
+               centroid = mesh.position[v[0]] + (1.0 / 3) * (first + second);
+    volume[a] += frames.cone(a, centroid, area);
+    volume[b] -= frames.cone(b, centroid, area);
   }
   volume[0] = 0;
   for (Phase p = 1; p < n_phases; ++p) volume[0] -= volume[p] = frames.volume(p, volume[p]);

@@ -146,16 +146,15 @@ std::array<Vec3, 3> PhaseFrames::place(Phase p, const std::array<Vec3, 3>& corne
   return {corner[0] + shift, corner[1] + shift, corner[2] + shift};
 }
 
-double PhaseFrames::cone_of_images(Phase p, const std::array<Vec3, 3>& corner, const Vec3& area) const {
+double PhaseFrames::cone_of_images(Phase p, const Vec3& centroid, const Vec3& area) const {
   const Frame& f = frame_[p];
   // A layer between walls has no closed surface: what it holds is counted from the bottom of the box.
   const Vec3 o = f.n_bounded == 3 ? middle(p) : domain_.lower;
-  const auto [a, b, c] = place(p, corner);
-  const Vec3 centroid = (1.0 / 3) * ((a - o) + (b - o) + (c - o));
-  if (f.n_bounded == 3) return (1.0 / 3) * dot(centroid, area);
+  const Vec3 x = domain_.near(centroid, middle(p)) - o;
+  if (f.n_bounded == 3) return (1.0 / 3) * dot(x, area);
   double sum = 0;
   for (int d = 0; d < 3; ++d)
-    if (f.bounded[d]) sum += centroid[d] * area[d];
+    if (f.bounded[d]) sum += x[d] * area[d];
   return f.n_bounded > 0 ? sum / f.n_bounded : 0;
 }
 

@@ -24,11 +24,13 @@ class PhaseFrames {
 
   /// Corners of a triangle of phase p, moved together to the image that belongs to p's films [m].
   std::array<Vec3, 3> place(Phase p, const std::array<Vec3, 3>& corner) const;
-  /// A triangle's part of the volume of p by the divergence theorem over the bounded directions:
-  ///   ∫ x_d n_d dA, mean over d, x from the middle of p [m³]. `area` is the area vector out of p [m²].
-  double cone(Phase p, const std::array<Vec3, 3>& corner, const Vec3& area) const {
-    if (!as_stored_) return cone_of_images(p, corner, area);
-    return (1.0 / 9) * dot(corner[0] + corner[1] + corner[2] - 3.0 * frame_[p].middle, area);
+  /// The part of a triangle, or of a point of a surface, in the volume of p by the divergence theorem over
+  /// the bounded directions:
+  ///   ∫ x_d n_d dA, mean over d, x from the middle of p [m³]. `centroid` [m] by any image; `area` is the
+  /// area vector out of p [m²].
+  double cone(Phase p, const Vec3& centroid, const Vec3& area) const {
+    if (!as_stored_) return cone_of_images(p, centroid, area);
+    return (1.0 / 3) * dot(centroid - frame_[p].middle, area);
   }
   /// The volume of p from the sum of its cones [m³]. A layer's cones give its volume but for a multiple of
   /// that of the box. Not a number for a phase without bound in any direction.
@@ -38,7 +40,7 @@ class PhaseFrames {
   /// Finds the frames without images; false where some are needed.
   bool take_as_stored(const FilmMesh& mesh);
   void take_images(const FilmMesh& mesh);
-  double cone_of_images(Phase p, const std::array<Vec3, 3>& corner, const Vec3& area) const;
+  double cone_of_images(Phase p, const Vec3& centroid, const Vec3& area) const;
 
   struct Frame {
     Vec3 lower, upper, middle;

@@ -18,6 +18,11 @@ struct Side {
   bool forward;  ///< runs from low to high
 };
 
+/// Which corner of a triangle a vertex of its is.
+int corner_of(const FilmTriangle& triangle, int vertex) {
+  return triangle.vertex[0] == vertex ? 0 : triangle.vertex[1] == vertex ? 1 : 2;
+}
+
 /// The sides at a vertex that is the lower one of their edge: of each edge in a row, in the order of
 /// triangles.
 void find_sides(const FilmMesh& mesh, const Topology& topology, int low, std::vector<Side>& sides) {
@@ -31,7 +36,7 @@ void find_sides(const FilmMesh& mesh, const Topology& topology, int low, std::ve
   for (int s = topology.star_offset[low]; s < topology.star_offset[low + 1]; ++s) {
     const int t = topology.star_triangle[s];
     const auto& v = mesh.triangle[t].vertex;
-    const int c = v[0] == low ? 0 : v[1] == low ? 1 : 2;
+    const int c = corner_of(mesh.triangle[t], low);
     if (const int next = v[(c + 1) % 3]; next > low) insert({next, t, true});
     if (const int last = v[(c + 2) % 3]; last > low) insert({last, t, false});
   }
@@ -72,6 +77,9 @@ void find_phases_and_stars(const FilmMesh& mesh, VertexTopology& topology) {
 void find_lamellae(const FilmMesh& mesh, Topology& topology) {
   topology.corner_dof.resize(mesh.triangle.size());
   std::vector<std::pair<Phase, Phase>> pair_of_dof;
+  const auto some_more = static_cast<std::size_t>(1.2 * mesh.n_vertices());  // a vertex on a border has three
+  pair_of_dof.reserve(some_more);
+  topology.film_dof.reserve(some_more);
   for (int v = 0; v < mesh.n_vertices(); ++v) {
     const int first = static_cast<int>(pair_of_dof.size());
     for (int s = topology.star_offset[v]; s < topology.star_offset[v + 1]; ++s) {
@@ -84,8 +92,7 @@ void find_lamellae(const FilmMesh& mesh, Topology& topology) {
         pair_of_dof.push_back(pair);
         topology.film_dof.push_back({v, -1});
       }
-      for (int c = 0; c < 3; ++c)
-        if (triangle.vertex[c] == v) topology.corner_dof[t][c] = dof;
+      topology.corner_dof[t][corner_of(triangle, v)] = dof;
     }
   }
 
@@ -122,10 +129,41 @@ bool is_border(const FilmMesh& mesh, const std::array<int, 3>& triangles) {
          !same_phases(b, c);
 }
 
+/// Whether of the edges from a vertex of two phases to higher ones each has two triangles, on opposite sides:
+/// true of nearly all, and found without sorting. Not answered (false) for stars of many triangles.
+bool lies_inside_film(const FilmMesh& mesh, const Topology& topology, int low) {
+  constexpr int most = 12;
+  if (topology.vertex_phases[low].size() != 2) return false;
+  const int begin = topology.star_offset[low], end = topology.star_offset[low + 1];
+  if (end - begin > most) return false;
+  std::array<int, most> forward, backward;  // ends of edges that run from low, and of those that run to it
+  int n_forward = 0, n_backward = 0;
+  for (int s = begin; s < end; ++s) {
+    const FilmTriangle& triangle = mesh.triangle[topology.star_triangle[s]];
+    const int c = corner_of(triangle, low), next = triangle.vertex[(c + 1) % 3],
+              last = triangle.vertex[(c + 2) % 3];
+    forward[n_forward] = next;
+    n_forward += next > low;
+    backward[n_backward] = last;
+    n_backward += last > low;
+  }
+  if (n_forward != n_backward) return false;
+  for (int n = 0; n < n_forward; ++n) {
+    int n_same = 0, n_opposite = 0;
+    for (int m = 0; m < n_forward; ++m) {
+      n_same += forward[m] == forward[n];
+      n_opposite += backward[m] == forward[n];
+    }
+    if (n_same != 1 || n_opposite != 1) return false;
+  }
+  return true;
+}
+
 /// Sorts the edges into those inside a lamella, those on borders, and the rest, which should not be.
 void find_border_edges(const FilmMesh& mesh, Topology& topology) {
   std::vector<Side> sides;
   for (int low = 0; low < mesh.n_vertices(); ++low) {
+    if (lies_inside_film(mesh, topology, low)) continue;
     find_sides(mesh, topology, low, sides);
     for (std::size_t first = 0, last; first < sides.size(); first = last) {
       last = first;

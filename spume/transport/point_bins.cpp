@@ -17,9 +17,9 @@ PointBins::PointBins(std::vector<Vec3> points, double bin_size, const Domain& do
       origin_[axis] = std::min(origin_[axis], p[axis]);
       upper[axis] = std::max(upper[axis], p[axis]);
     }
-  // A foam fills its box with films: a few bins a point. Scattered points must not cost more memory than
-  // that.
-  const double most_bins = 64.0 + 64.0 * static_cast<double>(points_.size());
+  // Balls of two or three bins are asked for, a few of them: more bins than points cost more to make than
+  // they spare.
+  const double most_bins = 64.0 + 2.0 * static_cast<double>(points_.size());
   const auto bins_along = [&](int axis) { return std::floor((upper[axis] - origin_[axis]) / bin_size_) + 1; };
   while (bins_along(0) * bins_along(1) * bins_along(2) > most_bins) bin_size_ *= 2;
   for (int axis = 0; axis < 3; ++axis) n_bins_[axis] = static_cast<int>(bins_along(axis));
@@ -28,13 +28,14 @@ PointBins::PointBins(std::vector<Vec3> points, double bin_size, const Domain& do
     const auto [i, j, k] = bin_of(p);
     return (k * n_bins_[1] + j) * n_bins_[0] + i;
   };
+  std::vector<int> bin(points_.size());
+  std::transform(points_.begin(), points_.end(), bin.begin(), number);
   bin_offset_.assign(n_bins_[0] * n_bins_[1] * n_bins_[2] + 1, 0);
-  for (const Vec3& p : points_) ++bin_offset_[number(p) + 1];
+  for (int b : bin) ++bin_offset_[b + 1];
   for (std::size_t b = 1; b < bin_offset_.size(); ++b) bin_offset_[b] += bin_offset_[b - 1];
   bin_point_.resize(points_.size());
   std::vector<int> next(bin_offset_.begin(), bin_offset_.end() - 1);
-  for (std::size_t p = 0; p < points_.size(); ++p)
-    bin_point_[next[number(points_[p])]++] = static_cast<int>(p);
+  for (std::size_t p = 0; p < points_.size(); ++p) bin_point_[next[bin[p]]++] = static_cast<int>(p);
 }
 
 std::array<int, 3> PointBins::bin_of(const Vec3& x) const {

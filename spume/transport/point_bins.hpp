@@ -17,7 +17,7 @@ struct Neighbour {
 /// Points sorted into cubes, to find those in a ball without looking at all of them.
 class PointBins {
  public:
-  /// Bins of edge `bin_size` [m], or larger where that would make many more bins than points. In a periodic
+  /// Bins of edge `bin_size` [m], or larger where that would make more than two bins a point. In a periodic
   /// domain all images of the points count.
   PointBins(std::vector<Vec3> points, double bin_size, const Domain& domain = {});
 
