@@ -17,6 +17,7 @@ namespace spume::mesh {
 namespace {
 
 constexpr int largest_number_of_rounds = 4;  // of split, collapse, flip, smooth
+constexpr double few = 0.002;                // changes, to vertices, that are not worth another round
 constexpr int reach_of_seam = 3;             // edges to both sides of a cut
 constexpr int largest_number_of_split_passes =
     24;  // halving from the size of the foam to a film's resolution
@@ -25,9 +26,9 @@ void split_until_short(WorkingMesh& work, const TargetLength& target, const Proj
                        const RemeshParameters& parameters, RemeshReport& report) {
   for (int pass = 0; pass < largest_number_of_split_passes; ++pass) {
     const int n_split = split_long_edges(work, target, project, parameters.split_above);
-    if (n_split == 0) return;
     report.n_split += n_split;
-    report.n_flipped += flip_edges(work);
+    if (n_split > 0) report.n_flipped += flip_edges(work);
+    if (n_split < few * work.mesh.n_vertices()) return;
   }
 }
 
@@ -59,7 +60,7 @@ RemeshReport remesh_part(FilmMesh& mesh, int n_cut, const TargetLength& target, 
     if (parameters.merge_below > 0) merge_and_collapse(work, target, parameters, report);
     EdgeFlipper flipper(work);
     report.n_flipped += flipper.run();
-    if (round > 0 && report.n_split + report.n_collapsed == n_before) break;
+    if (round > 0 && report.n_split + report.n_collapsed - n_before <= few * work.mesh.n_vertices()) break;
     for (int sweep = 0; sweep < parameters.smoothing_sweeps; ++sweep) {
       smooth(work, project);
       report.n_flipped += flipper.run();

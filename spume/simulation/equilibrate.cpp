@@ -249,7 +249,7 @@ std::string virial_text(const EquilibrateReport& report) {
 
 EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, state::Foam& foam,
                               std::vector<state::Event>& events, const OnRelaxStep& on_step) {
-  constexpr int most_steps = 2000;
+  constexpr int most_steps = 2000, most_waits = 40;
   constexpr double largest_step_cells = 0.5, least_motion_cells = 0.5, largest_motion_cells = 1.5;
   constexpr double rest = 1e-5, largest_virial_error = 1e-4;
   const double h = grid.h();
@@ -267,6 +267,7 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
   EquilibrateReport report;
   mesh::Topology topology = mesh::build_topology(foam.films);
   Wear wear(foam.films.position, h);
+  int n_waits = 0;
   while (report.n_steps < most_steps) {
     const auto step = descent.step(foam.films, topology, foam.phases);
     if (!step) continue;
@@ -285,6 +286,11 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
     if (motion < largest_motion_cells && !at_rest && !poor && !vanishing) continue;
     const bool on_fine_mesh = is_fine || (came_fine && report.n_reconstructions == 0);
     if (at_rest && on_fine_mesh && !poor && !vanishing) {
+      // A film that is left too small by a reconstruction of a mesh at rest grows, slowly at first.
+      if (n_waits < most_waits && count_vanishing(foam.films, topology, h) > 0) {
+        ++n_waits;
+        continue;
+      }
       // The virial identity was measured where the step started, which may be ahead of the films.
       report.converged = !descent.went_ahead();
       if (report.converged) break;
