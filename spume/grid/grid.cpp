@@ -15,10 +15,13 @@ namespace {
 
 constexpr int min_layers = 4;  // the widest ghosts come from one neighbour
 
-/// The slabs of FFTW-MPI's default distribution: ⌈n/ranks⌉ layers each, the last ones what remains.
+/// The slabs of FFTW-MPI's default distribution: so many layers each, the last ones what remains.
+int layers_of_slab(int n, int ranks) {
+  return (n + ranks - 1) / ranks;
+}
+
 int slab_begin(int n, int ranks, int rank) {
-  const int block = (n + ranks - 1) / ranks;
-  return std::min(n, rank * block);
+  return std::min(n, rank * layers_of_slab(n, ranks));
 }
 
 int thinnest_slab(int n, int ranks) {
@@ -65,6 +68,10 @@ Grid::Grid(const parallel::Communicator& communicator, const Box& box)
 }
 
 Grid::~Grid() = default;
+
+int Grid::owner_of_layer(int k) const {
+  return k / layers_of_slab(box_.cells.k, communicator_.size());
+}
 
 Symmetry effective_symmetry(const Box& box, Symmetry symmetry) {
   for (int axis = 0; axis < 3; ++axis)

@@ -27,6 +27,7 @@ class Grid {
   Index3 cells() const { return box_.cells; }  ///< of the whole box
   int z_begin() const { return z_begin_; }     ///< first owned layer k
   int z_end() const { return z_end_; }         ///< one past the last owned layer
+  int owner_of_layer(int k) const;             ///< rank
   std::size_t owned_size() const { return owned_size_; }
   std::size_t total_size() const { return total_size_; }
   Vec3 centre(int i, int j, int k) const { return box_.lower + h_ * Vec3{i + 0.5, j + 0.5, k + 0.5}; }

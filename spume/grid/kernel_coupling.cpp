@@ -118,6 +118,12 @@ class Kernel {
     return true;
   }
 
+  /// Whether parts of the kernels belong to different ranks; all ranks answer alike.
+  bool is_shared() const {
+    return has_several_owners(centres_[2]) ||
+           (placement_ == Placement::Faces && has_several_owners(faces_[2]));
+  }
+
   /// Calls layer(m, rows) for the layers of a component's kernel that this rank owns: the factors of a row
   /// are those of h³ δ across x, with the signs of the field's images.
   template <class Layer>
@@ -146,6 +152,11 @@ class Kernel {
     for (int m = 0; m < reach; ++m)
       if (z.cell[m] >= grid_->z_begin() && z.cell[m] < grid_->z_end()) return true;
     return false;
+  }
+  bool has_several_owners(const Stencil& z) const {
+    const int owner = grid_->owner_of_layer(z.cell[0]);
+    return std::any_of(z.cell.begin() + 1, z.cell.end(),
+                       [&](int k) { return grid_->owner_of_layer(k) != owner; });
   }
   const Stencil& along(int component, int axis) const {
     return placement_ == Placement::Faces && axis == component ? faces_[axis] : centres_[axis];
@@ -217,21 +228,33 @@ void KernelCoupling::sample(const VectorField& u, std::span<const Vec3> points,
   const Grid& grid = u[0].grid();
   Kernel kernel(grid, *this);
   RowWeights x;
-  // One number per point, layer and component: a layer has one owner, so the sum over ranks is exact, and
-  // layers are then added in one order, whatever the number of ranks.
-  std::vector<double> of_layer(points.size() * reach * 3, 0.0);
+  // A point whose kernels are of one rank has three sums, of which the other ranks hold none. Of the others
+  // each layer has one owner, so that the sum over ranks is exact there as well; layers are then added in one
+  // order, whatever the number of ranks.
+  std::vector<double> sums(points.size() * 3, 0.0);
+  std::vector<std::size_t> shared;
   for (std::size_t p = 0; p < points.size(); ++p) {
-    if (!kernel.move_to(points[p])) continue;
+    const bool owns_some = kernel.move_to(points[p]);
+    const bool is_shared = kernel.is_shared();
+    const std::size_t first = is_shared ? sums.size() : p * 3;
+    if (is_shared) {
+      shared.push_back(p);
+      sums.resize(sums.size() + reach * 3, 0.0);
+    }
+    if (!owns_some) continue;
     for (int c = 0; c < 3; ++c)
       kernel.for_owned_layers(c, u[c].symmetry(), x, [&](int m, std::span<const Row> rows) {
-        of_layer[(p * reach + m) * 3 + c] = sum_of_rows(rows, x, u[c].values().data());
+        sums[first + (is_shared ? m * 3 : 0) + c] += sum_of_rows(rows, x, u[c].values().data());
       });
   }
-  grid.communicator().sum(of_layer);
-  velocities.assign(points.size(), Vec3{});
+  grid.communicator().sum(sums);
+  velocities.resize(points.size());
   for (std::size_t p = 0; p < points.size(); ++p)
+    velocities[p] = {sums[p * 3], sums[p * 3 + 1], sums[p * 3 + 2]};
+  const double* of_layer = sums.data() + points.size() * 3;
+  for (const std::size_t p : shared)
     for (int m = 0; m < reach; ++m)
-      for (int c = 0; c < 3; ++c) velocities[p][c] += of_layer[(p * reach + m) * 3 + c];
+      for (int c = 0; c < 3; ++c) velocities[p][c] += *of_layer++;
 }
 
 }  // namespace spume::grid
