@@ -26,9 +26,9 @@ void split_until_short(WorkingMesh& work, const TargetLength& target, const Proj
                        const RemeshParameters& parameters, RemeshReport& report) {
   for (int pass = 0; pass < largest_number_of_split_passes; ++pass) {
     const int n_split = split_long_edges(work, target, project, parameters.split_above);
+    if (n_split == 0) return;
     report.n_split += n_split;
-    if (n_split > 0) report.n_flipped += flip_edges(work);
-    if (n_split < few * work.mesh.n_vertices()) return;
+    report.n_flipped += flip_edges(work);
   }
 }
 
