@@ -48,6 +48,8 @@ void LayerRing::fill_ghosts(int k) {
 
 LayerWindow::LayerWindow(const Grid& grid, int depth)
     : depth_(depth),
+      begin_(grid.z_begin()),
+      end_(grid.z_end()),
       walls_(grid),
       layer_size_(static_cast<std::ptrdiff_t>(grid.cells().i) * grid.cells().j),
       below_(static_cast<std::size_t>(depth * layer_size_)),
@@ -57,19 +59,11 @@ LayerWindow::LayerWindow(const Grid& grid, int depth)
 }
 
 void LayerWindow::open(const Field& f, int face_axis) {
-  field_ = &f;
+  owned_ = f.values().data();
   for (int axis = 0; axis < 3; ++axis) continuation_[axis] = Continuation(f, axis, axis == face_axis);
   ring_.continue_by(continuation_[0], continuation_[1]);
   exchange_layers(f, depth_, below_.data(), above_.data());
   next_ = first() - 1;
-}
-
-int LayerWindow::first() const {
-  return field_->grid().z_begin() - (walls_.below ? 0 : depth_ - 1);
-}
-
-int LayerWindow::last() const {
-  return field_->grid().z_end() - 1 + (walls_.above ? 0 : depth_ - 1);
 }
 
 void LayerWindow::move_to(int k) {
@@ -77,18 +71,16 @@ void LayerWindow::move_to(int k) {
 }
 
 void LayerWindow::load(int k) {
-  const int begin = field_->grid().z_begin(), end = field_->grid().z_end();
-  const double* owned = field_->values().data();
-  if (k < begin && walls_.below)
-    ring_.take(k, continuation_[2].sign_below, owned);
-  else if (k < begin)
-    ring_.take(k, 1, below_.data() + (k - begin + depth_) * layer_size_);
-  else if (k < end)
-    ring_.take(k, 1, owned + (k - begin) * layer_size_);
+  if (k < begin_ && walls_.below)
+    ring_.take(k, continuation_[2].sign_below, owned_);
+  else if (k < begin_)
+    ring_.take(k, 1, below_.data() + (k - begin_ + depth_) * layer_size_);
+  else if (k < end_)
+    ring_.take(k, 1, owned_ + (k - begin_) * layer_size_);
   else if (walls_.above)
-    ring_.take_image(k, continuation_[2].sign_above, end - 1);
+    ring_.take_image(k, continuation_[2].sign_above, end_ - 1);
   else
-    ring_.take(k, 1, above_.data() + (k - end) * layer_size_);
+    ring_.take(k, 1, above_.data() + (k - end_) * layer_size_);
 }
 
 }  // namespace spume::grid

@@ -51,9 +51,10 @@ class LayerWindow {
   /// Puts the window before its first layer. `face_axis`: the axis whose lower faces the values lie on; −1
   /// for values at centres. Collective.
   void open(const Field& f, int face_axis = -1);
+  void open(const Field&&, int = -1) = delete;
   /// The layers on which it can stand.
-  int first() const;
-  int last() const;
+  int first() const { return begin_ - (walls_.below ? 0 : depth_ - 1); }
+  int last() const { return end_ - 1 + (walls_.above ? 0 : depth_ - 1); }
   /// Moves on to the next layer k; layers k − 1, k and k + 1 can be seen. The field may be overwritten up to
   /// layer k now.
   void move_to(int k);
@@ -66,8 +67,9 @@ class LayerWindow {
  private:
   void load(int k);
 
-  int depth_, next_ = 0;
-  const Field* field_ = nullptr;
+  int depth_, begin_, end_;        ///< owned layers
+  int next_ = 0;                   ///< layer to be loaded
+  const double* owned_ = nullptr;  ///< values of the field
   WallsAlongZ walls_;
   std::ptrdiff_t layer_size_;
   std::vector<double> below_, above_;  ///< layers of other ranks, or of the other end of a periodic box
