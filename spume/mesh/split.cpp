@@ -11,6 +11,10 @@ struct LongEdge {
   int edge;
 };
 
+bool may_be_cut(const WorkingMesh& work, const MeshEdge& e) {
+  return e.n_uses <= 3 && !(work.is_cut(e.low) && work.is_cut(e.high));
+}
+
 std::vector<LongEdge> long_edges(const WorkingMesh& work, const EdgeTable& edges, const TargetLength& target,
                                  double split_above) {
   const FilmMesh& mesh = work.mesh;
@@ -18,7 +22,6 @@ std::vector<LongEdge> long_edges(const WorkingMesh& work, const EdgeTable& edges
   std::vector<LongEdge> list;
   for (std::size_t n = 0; n < edges.edge.size(); ++n) {
     const MeshEdge& e = edges.edge[n];
-    if (e.n_uses > 3 || (work.is_cut(e.low) && work.is_cut(e.high))) continue;
     const double relative_length =
         norm(mesh.edge(e.low, e.high)) / (0.5 * (target_length[e.low] + target_length[e.high]));
     if (relative_length > split_above) list.push_back({relative_length, static_cast<int>(n)});
@@ -31,8 +34,8 @@ std::vector<LongEdge> long_edges(const WorkingMesh& work, const EdgeTable& edges
 
 int middle_vertex(WorkingMesh& work, const EdgeTable& edges, const MeshEdge& e, const Projection& project) {
   PhaseSet phases;
-  for (int n = 0; n < e.n_uses; ++n) {
-    const FilmTriangle& t = work.mesh.triangle[edges.use[e.first_use + n].triangle];
+  for (const EdgeUse& use : edges.uses(e)) {
+    const FilmTriangle& t = work.mesh.triangle[use.triangle];
     phases.insert(t.phase_a);
     phases.insert(t.phase_b);
   }
@@ -52,18 +55,23 @@ void cut(FilmMesh& mesh, const EdgeUse& use, int middle) {
 
 int split_long_edges(WorkingMesh& work, const TargetLength& target, const Projection& project,
                      double split_above) {
+  enum class State : char { Whole, Cut, Waiting };
   const EdgeTable edges = build_edges(work.mesh);
-  std::vector<char> used(work.mesh.n_triangles(), 0);
+  std::vector<State> state(work.mesh.n_triangles(), State::Whole);
   int n_split = 0;
   for (const LongEdge& candidate : long_edges(work, edges, target, split_above)) {
     const MeshEdge& e = edges.edge[candidate.edge];
-    const auto first = edges.use.begin() + e.first_use, last = first + e.n_uses;
-    if (std::any_of(first, last, [&](const EdgeUse& use) { return used[use.triangle]; })) continue;
+    const auto uses = edges.uses(e);
+    const auto any_is = [&](State s) {
+      return std::ranges::any_of(uses, [&](const EdgeUse& use) { return state[use.triangle] == s; });
+    };
+    if (any_is(State::Cut)) continue;
+    // Halves of a shorter edge would leave the next edge across the triangle as long, and so on without end.
+    const bool waits = !may_be_cut(work, e) || any_is(State::Waiting);
+    for (const EdgeUse& use : uses) state[use.triangle] = waits ? State::Waiting : State::Cut;
+    if (waits) continue;
     const int middle = middle_vertex(work, edges, e, project);
-    for (auto use = first; use != last; ++use) {
-      cut(work.mesh, *use, middle);
-      used[use->triangle] = 1;
-    }
+    for (const EdgeUse& use : uses) cut(work.mesh, use, middle);
     ++n_split;
   }
   return n_split;

@@ -29,6 +29,10 @@ struct EdgeLength {
 struct EdgeTable {
   std::vector<MeshEdge> edge;
   std::vector<EdgeUse> use;
+
+  std::span<const EdgeUse> uses(const MeshEdge& e) const {
+    return std::span(use).subspan(e.first_use, e.n_uses);
+  }
 };
 EdgeTable build_edges(const FilmMesh& mesh);
 

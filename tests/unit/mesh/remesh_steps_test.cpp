@@ -365,5 +365,36 @@ TEST(Split, keeps_the_middle_where_there_is_no_projection) {
   }
 }
 
+/// A triangle on a base of 3 between two vertices of a cut, and what is beyond its two sides. In units of
+/// `length`.
+FilmMesh triangle_on_cut(double height) {
+  FilmMesh mesh;
+  for (const Vec3& x : {Vec3{-1.5, 0, 0}, {1.5, 0, 0}, {0, height, 0}, {1.2, height, 0}, {-1.2, height, 0}})
+    mesh.position.push_back(length * x);
+  mesh.triangle = {make_triangle(0, 1, 2, 1, 2), make_triangle(1, 3, 2, 1, 2), make_triangle(0, 2, 4, 1, 2)};
+  return mesh;
+}
+
+TEST(Split, leaves_the_shorter_sides_beside_a_long_edge_that_must_stay) {
+  // The sides are √3.25 = 1.8 and 4.27: the first, halved, would leave 1.5, 1.45 … across the triangle.
+  FilmMesh low = triangle_on_cut(1), high = triangle_on_cut(4);
+  WorkingMesh low_work(low, 2), high_work(high, 2);
+  EXPECT_EQ(split_long_edges(low_work, one_length, where_it_is, 1.25), 0);
+  EXPECT_EQ(split_long_edges(high_work, one_length, where_it_is, 1.25), 2);
+  EXPECT_TRUE(std::ranges::any_of(high.triangle, [](const FilmTriangle& t) {
+    return std::ranges::count_if(t.vertex, [](int v) { return v < 2; }) == 2 && t.vertex[2] >= 5;
+  }));
+}
+
+TEST(Split, comes_to_an_end_beside_a_long_cut) {
+  FilmMesh mesh = triangle_on_cut(4);
+  WorkingMesh work(mesh, 2);
+  int n_passes = 0;
+  while (n_passes < 24 && split_long_edges(work, one_length, where_it_is, 1.25) > 0) ++n_passes;
+  EXPECT_LT(n_passes, 8);
+  for (int t = 0; t < mesh.n_triangles(); ++t)  // none below a fifth of an equilateral one
+    EXPECT_GT(norm(doubled_area_normal(mesh, t)), 0.2 * 0.87 * length * length);
+}
+
 }  // namespace
 }  // namespace spume::mesh
