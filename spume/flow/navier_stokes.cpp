@@ -10,6 +10,7 @@
 #include "spume/flow/crank_nicolson.hpp"
 #include "spume/flow/godunov.hpp"
 #include "spume/flow/projection.hpp"
+#include "spume/grid/layer_window.hpp"
 
 namespace spume::flow {
 
@@ -25,8 +26,10 @@ struct NavierStokes::Implementation {
         velocity(ghosted_vector(rate)),
         force(velocity[0]),
         pressure(velocity[0]),
-        acceleration(block_vector(BlockLayout(on))) {}
+        acceleration(block_vector(BlockLayout(on))),
+        window(on) {}
 
+  void mean_on_faces(const grid::Field& u, int c, BlockArray& face);
   void intermediate_rate(const state::GasFlow& flow, const grid::VectorField& body_force, double dt);
 
   const grid::Grid& grid;
@@ -39,6 +42,7 @@ struct NavierStokes::Implementation {
   GhostedField force;  ///< one component of it
   GhostedField pressure;
   BlockVector acceleration;
+  grid::LayerWindow window;
   StageTimes times;
 };
 
@@ -96,19 +100,33 @@ const StageTimes& NavierStokes::times() const {
   return implementation_->times;
 }
 
+/// Means of the two cells of every face across axis c that an owned cell has. Collective.
+void NavierStokes::Implementation::mean_on_faces(const grid::Field& u, int c, BlockArray& face) {
+  const BlockLayout layout(grid);
+  const Index3 n = grid.cells();
+  const auto take_mean = [&](int j, int k, int n_faces, const double* upper, const double* lower) {
+    double* normal = face.first() + layout.offset(0, j, k - grid.z_begin());
+#pragma GCC ivdep
+    for (int i = 0; i < n_faces; ++i) normal[i] = 0.5 * (lower[i] + upper[i]);
+  };
+  window.open(u);
+  for (int k = grid.z_begin(); k < grid.z_end(); ++k) {
+    window.move_to(k);
+    for (int j = 0; j < (c == 1 ? n.j + 1 : n.j); ++j) {
+      const double* upper = window.row(j, k);
+      const double* lower = c == 0 ? upper - 1 : c == 1 ? window.row(j - 1, k) : window.row(j, k - 1);
+      take_mean(j, k, c == 0 ? n.i + 1 : n.i, upper, lower);
+    }
+  }
+  for (int j = 0; c == 2 && j < n.j; ++j)
+    take_mean(j, grid.z_end(), n.i, window.row(j, grid.z_end()), window.row(j, grid.z_end() - 1));
+}
+
 void NavierStokes::film_velocity(const state::GasFlow& flow, grid::VectorField& on_faces) {
   Implementation& now = *implementation_;
   const BlockLayout layout(now.grid);
   BlockVector& face = now.godunov.face_velocity();
-  for (int c = 0; c < 3; ++c) {
-    now.velocity[c].update(flow.velocity[c]);
-    const double* u = first(now.velocity[c], now.grid);
-    double* normal = face[c].first();
-    const std::ptrdiff_t down = layout.stride(c);
-    for_each_row(layout, layout.owned_faces(c), [=](std::ptrdiff_t row, std::ptrdiff_t n) {
-      for (std::ptrdiff_t i = row; i < row + n; ++i) normal[i] = 0.5 * (u[i - down] + u[i]);
-    });
-  }
+  for (int c = 0; c < 3; ++c) now.mean_on_faces(flow.velocity[c], c, face[c]);
   now.projection.clear_divergence(face);
   for (int c = 0; c < 3; ++c) {
     const double* normal = face[c].first();

@@ -25,68 +25,74 @@ void for_each_divergence(const grid::Grid& grid, const BlockLayout& layout, cons
 }  // namespace
 
 Projection::Projection(const grid::Grid& grid, grid::EllipticSolver& elliptic)
-    : grid_(grid), elliptic_(elliptic), layout_(grid), potential_(grid), ghosted_(potential_) {}
+    : grid_(grid),
+      elliptic_(elliptic),
+      layout_(grid),
+      potential_(grid),
+      phi_(grid),
+      x_{grid::LayerWindow(grid), grid::LayerWindow(grid), grid::LayerWindow(grid)} {}
 
 void Projection::clear_divergence(BlockVector& face_velocity) {
   double* rhs = potential_.values().data();
   for_each_divergence(grid_, layout_, face_velocity,
                       [=](std::ptrdiff_t c, double value) { rhs[c] = -value; });
   elliptic_.solve(0, 1, potential_, potential_);
-  ghosted_.update(potential_);
+  const Index3 n = grid_.cells();
   const double per_h = 1 / grid_.h();
-  for (int axis = 0; axis < 3; ++axis) {
-    double* normal = face_velocity[axis].first();
-    const std::array<std::ptrdiff_t, 3> stride{1, ghosted_.stride_y(), ghosted_.stride_z()};
-    const std::ptrdiff_t s = stride[axis];
-    const CellRange faces = layout_.owned_faces(axis);
-    for (int k = faces.lower.k; k < faces.upper.k; ++k)
-      for (int j = faces.lower.j; j < faces.upper.j; ++j) {
-        const double* phi = ghosted_.at(0, j, k + grid_.z_begin());
-        double* u = normal + layout_.offset(0, j, k);
+  const auto subtract = [&](int axis, int j, int k, int n_faces, const double* phi, const double* lower) {
+    double* u = face_velocity[axis].first() + layout_.offset(0, j, k - grid_.z_begin());
 #pragma GCC ivdep
-        for (int i = 0; i < faces.upper.i; ++i) u[i] -= per_h * (phi[i] - phi[i - s]);
-      }
+    for (int i = 0; i < n_faces; ++i) u[i] -= per_h * (phi[i] - lower[i]);
+  };
+  phi_.open(potential_);
+  for (int k = grid_.z_begin(); k < grid_.z_end(); ++k) {
+    phi_.move_to(k);
+    for (int j = 0; j < n.j; ++j) {
+      const double* phi = phi_.row(j, k);
+      subtract(0, j, k, n.i + 1, phi, phi - 1);
+      subtract(1, j, k, n.i, phi, phi_.row(j - 1, k));
+      subtract(2, j, k, n.i, phi, phi_.row(j, k - 1));
+    }
+    subtract(1, n.j, k, n.i, phi_.row(n.j, k), phi_.row(n.j - 1, k));
   }
+  for (int j = 0; j < n.j; ++j)
+    subtract(2, j, grid_.z_end(), n.i, phi_.row(j, grid_.z_end()), phi_.row(j, grid_.z_end() - 1));
 }
 
 /// Subtracts Gφ with ∇²_h φ = D x from x, and leaves φ in potential_.
 void Projection::remove_gradient(grid::VectorField& x) {
   const Index3 n = grid_.cells();
   const double half_per_h = 0.5 / grid_.h();
-  const std::ptrdiff_t sy = ghosted_.stride_y(), sz = ghosted_.stride_z();
-  const auto for_rows = [&](auto&& body) {
-    std::ptrdiff_t place = 0;
-    for (int k = grid_.z_begin(); k < grid_.z_end(); ++k)
-      for (int j = 0; j < n.j; ++j, place += n.i) body(j, k, place);
-  };
-
   double* source = potential_.values().data();
-  const std::array<std::ptrdiff_t, 3> stride{1, sy, sz};
-  for (int c = 0; c < 3; ++c) {
-    ghosted_.update(x[c]);
-    const std::ptrdiff_t step = stride[c];
-    for_rows([&](int j, int k, std::ptrdiff_t place) {
-      const double* v = ghosted_.at(0, j, k);
-      double* row = source + place;
+  for (int c = 0; c < 3; ++c) x_[c].open(x[c]);
+  for (int k = grid_.z_begin(); k < grid_.z_end(); ++k) {
+    for (grid::LayerWindow& window : x_) window.move_to(k);
+    for (int j = 0; j < n.j; ++j, source += n.i) {
+      const double *u = x_[0].row(j, k), *v_below = x_[1].row(j - 1, k), *v_above = x_[1].row(j + 1, k),
+                   *w_below = x_[2].row(j, k - 1), *w_above = x_[2].row(j, k + 1);
 #pragma GCC ivdep
       for (int i = 0; i < n.i; ++i)
-        row[i] = (c == 0 ? 0.0 : row[i]) - half_per_h * (v[i + step] - v[i - step]);
-    });
+        source[i] =
+            -half_per_h * (u[i + 1] - u[i - 1] + (v_above[i] - v_below[i]) + (w_above[i] - w_below[i]));
+    }
   }
   elliptic_.solve(0, 1, potential_, potential_);
-  ghosted_.update(potential_);
 
-  double *first = x[0].values().data(), *second = x[1].values().data(), *third = x[2].values().data();
-  for_rows([&](int j, int k, std::ptrdiff_t place) {
-    const double* phi = ghosted_.at(0, j, k);
-    double *u = first + place, *v = second + place, *w = third + place;
+  double *u = x[0].values().data(), *v = x[1].values().data(), *w = x[2].values().data();
+  phi_.open(potential_);
+  for (int k = grid_.z_begin(); k < grid_.z_end(); ++k) {
+    phi_.move_to(k);
+    for (int j = 0; j < n.j; ++j, u += n.i, v += n.i, w += n.i) {
+      const double *phi = phi_.row(j, k), *below_y = phi_.row(j - 1, k), *above_y = phi_.row(j + 1, k),
+                   *below_z = phi_.row(j, k - 1), *above_z = phi_.row(j, k + 1);
 #pragma GCC ivdep
-    for (int i = 0; i < n.i; ++i) {
-      u[i] -= half_per_h * (phi[i + 1] - phi[i - 1]);
-      v[i] -= half_per_h * (phi[i + sy] - phi[i - sy]);
-      w[i] -= half_per_h * (phi[i + sz] - phi[i - sz]);
+      for (int i = 0; i < n.i; ++i) {
+        u[i] -= half_per_h * (phi[i + 1] - phi[i - 1]);
+        v[i] -= half_per_h * (above_y[i] - below_y[i]);
+        w[i] -= half_per_h * (above_z[i] - below_z[i]);
+      }
     }
-  });
+  }
 }
 
 void Projection::project(double density, grid::VectorField& rate, grid::Field& pressure) {

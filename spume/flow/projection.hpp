@@ -1,7 +1,10 @@
 #pragma once
 
+#include <array>
+
 #include "spume/flow/block.hpp"
 #include "spume/grid/elliptic.hpp"
+#include "spume/grid/layer_window.hpp"
 
 namespace spume::flow {
 
@@ -38,8 +41,9 @@ class Projection {
   const grid::Grid& grid_;
   grid::EllipticSolver& elliptic_;
   BlockLayout layout_;
-  grid::Field potential_;     ///< whose gradient was removed last
-  grid::Ghosted<1> ghosted_;  ///< the potential, or one component of a vector
+  grid::Field potential_;  ///< whose gradient was removed last
+  grid::LayerWindow phi_;  ///< on the potential
+  std::array<grid::LayerWindow, 3> x_;
 };
 
 /// max |D u_face| [1/s] of the owned cells of all ranks. Collective.

@@ -26,19 +26,17 @@ void ForceSpreader::spread(const mesh::FilmMesh& films, const FilmForces& forces
   const grid::Grid& grid = density[0].grid();
   const Index3 n = grid.cells();
   for (int c = 0; c < 3; ++c) {
-    ghosted_.update(on_faces_[c]);
-    const std::ptrdiff_t up = c == 0 ? 1 : c == 1 ? ghosted_.stride_y() : ghosted_.stride_z();
-    const bool walled = grid.box().boundary[c] != grid::Boundary::Periodic;
     double* to = density[c].values().data();
-    for (int k = grid.z_begin(); k < grid.z_end(); ++k)
+    window_.open(on_faces_[c], c);
+    for (int k = grid.z_begin(); k < grid.z_end(); ++k) {
+      window_.move_to(k);
       for (int j = 0; j < n.j; ++j, to += n.i) {
-        const double* face = ghosted_.at(0, j, k);
-        for (int i = 0; i < n.i; ++i) to[i] = 0.5 * (face[i] + face[i + up]);
-        // The upper face of the last cell is the wall, not the mirror image of the lower one.
-        if (walled && c == 0) to[n.i - 1] = 0.5 * face[n.i - 1];
-        if (walled && ((c == 1 && j == n.j - 1) || (c == 2 && k == n.k - 1)))
-          for (int i = 0; i < n.i; ++i) to[i] = 0.5 * face[i];
+        const double* face = window_.row(j, k);
+        const double* upper = c == 0 ? face + 1 : c == 1 ? window_.row(j + 1, k) : window_.row(j, k + 1);
+#pragma GCC ivdep
+        for (int i = 0; i < n.i; ++i) to[i] = 0.5 * (face[i] + upper[i]);
       }
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "spume/grid/field.hpp"
 #include "spume/grid/kernel_coupling.hpp"
+#include "spume/grid/layer_window.hpp"
 #include "spume/grid/sharpening.hpp"
 #include "spume/mesh/film_mesh.hpp"
 #include "spume/mesh/topology.hpp"
@@ -29,7 +30,7 @@ FilmForces film_forces(const mesh::FilmMesh& films, const mesh::Topology& topolo
 /// Brings film forces to the gas.
 class ForceSpreader {
  public:
-  explicit ForceSpreader(const grid::Grid& grid) : on_faces_(grid), ghosted_(on_faces_[0]) {}
+  explicit ForceSpreader(const grid::Grid& grid) : on_faces_(grid), window_(grid) {}
 
   /// st_ζ of the paper's (7): vertex forces spread to faces by the kernel, sharpened, and brought to the
   /// centres of cells by the mean of a cell's two faces [N/m³]. Overwrites `density`. Collective.
@@ -38,7 +39,7 @@ class ForceSpreader {
 
  private:
   grid::VectorField on_faces_;
-  grid::Ghosted<1> ghosted_;
+  grid::LayerWindow window_;
 };
 
 }  // namespace spume::flow

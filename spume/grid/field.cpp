@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "spume/base/contract.hpp"
+#include "spume/grid/continuation.hpp"
 #include "spume/grid/implementation.hpp"
 
 namespace spume::grid {
@@ -31,20 +32,6 @@ struct GhostedShape {
   std::array<std::ptrdiff_t, 3> stride;
 };
 
-/// How the values of a field go on beyond one face across an axis: the image of the g-th ghost, counted from
-/// the face, and its sign.
-struct Continuation {
-  Boundary boundary;
-  double sign;
-
-  Continuation(const Field& f, int axis)
-      : boundary(f.grid().box().boundary[axis]),
-        sign(boundary != Boundary::Periodic && f.symmetry()[axis] == Parity::Odd ? -1.0 : 1.0) {}
-  /// Places along the axis, ghosts counted, of the images for a width w and n inner places.
-  int below(int g, int w, int n) const { return boundary == Boundary::Periodic ? w + n - 1 - g : w + g; }
-  int above(int g, int w, int n) const { return boundary == Boundary::Periodic ? w + g : w + n - 1 - g; }
-};
-
 void copy(const double* from, std::ptrdiff_t n, double sign, double* to) {
   for (std::ptrdiff_t m = 0; m < n; ++m) to[m] = sign * from[m];
 }
@@ -59,31 +46,14 @@ void fill_layer(const GhostedShape& shape, const Continuation& x, const Continua
     double* row = layer + (j + w) * stride;
     std::memmove(row + w, from + static_cast<std::ptrdiff_t>(j) * nx, sizeof(double) * nx);
     for (int g = 0; g < w; ++g) {
-      row[w - 1 - g] = x.sign * row[x.below(g, w, nx)];
-      row[w + nx + g] = x.sign * row[x.above(g, w, nx)];
+      row[w - 1 - g] = x.sign_below * row[x.below(g, w, nx)];
+      row[w + nx + g] = x.sign_above * row[x.above(g, w, nx)];
     }
   }
   for (int g = 0; g < w; ++g) {
-    copy(layer + y.below(g, w, ny) * stride, stride, y.sign, layer + (w - 1 - g) * stride);
-    copy(layer + y.above(g, w, ny) * stride, stride, y.sign, layer + (w + ny + g) * stride);
+    copy(layer + y.below(g, w, ny) * stride, stride, y.sign_below, layer + (w - 1 - g) * stride);
+    copy(layer + y.above(g, w, ny) * stride, stride, y.sign_above, layer + (w + ny + g) * stride);
   }
-}
-
-/// Layers of the neighbouring ranks beyond the ends of the slab, packed, each to the first of the ghost
-/// layers where it belongs; false where there is no neighbour. A slab is at least as thick as its ghosts.
-std::array<bool, 2> receive_layers(const Field& f, const GhostedShape& shape, double* lower, double* upper) {
-  const parallel::Communicator& ranks = f.grid().communicator();
-  const bool periodic = f.grid().box().boundary[2] == Boundary::Periodic;
-  const int above = ranks.rank() + 1 < ranks.size() ? ranks.rank() + 1 : periodic ? 0 : MPI_PROC_NULL;
-  const int below = ranks.rank() > 0 ? ranks.rank() - 1 : periodic ? ranks.size() - 1 : MPI_PROC_NULL;
-  const std::ptrdiff_t layer = static_cast<std::ptrdiff_t>(shape.inner.i) * shape.inner.j;
-  const double* owned = f.values().data();
-  const int count = static_cast<int>(shape.width * layer);
-  MPI_Sendrecv(owned + (shape.inner.k - shape.width) * layer, count, MPI_DOUBLE, above, 0, lower, count,
-               MPI_DOUBLE, below, 0, ranks.handle(), MPI_STATUS_IGNORE);
-  MPI_Sendrecv(owned, count, MPI_DOUBLE, below, 1, upper, count, MPI_DOUBLE, above, 1, ranks.handle(),
-               MPI_STATUS_IGNORE);
-  return {below != MPI_PROC_NULL, above != MPI_PROC_NULL};
 }
 
 }  // namespace
@@ -113,19 +83,38 @@ void exchange_ghosts(const Field& f, int width, std::vector<double>& buffer) {
   const auto at = [&](int k) { return buffer.data() + k * shape.stride[2]; };
   for (int k = 0; k < n; ++k) fill_layer(shape, x, y, f.values().data() + k * layer, at(w + k));
 
-  const bool alone = grid.communicator().size() == 1;
-  const auto [from_below, from_above] =
-      alone ? std::array{false, false} : receive_layers(f, shape, at(0), at(w + n));
-  for (int g = w - 1; g >= 0; --g) {  // packed layers move to their places last first
-    if (from_below)
+  // What others send is packed at the beginning of its place, and moved within it last layer first.
+  exchange_layers(f, w, at(0), at(w + n));
+  const WallsAlongZ wall(grid);
+  for (int g = w - 1; g >= 0; --g) {
+    if (wall.below)
+      copy(at(z.below(w - 1 - g, w, n)), shape.stride[2], z.sign_below, at(g));
+    else
       fill_layer(shape, x, y, at(0) + g * layer, at(g));
+    if (wall.above)
+      copy(at(z.above(g, w, n)), shape.stride[2], z.sign_above, at(w + n + g));
     else
-      copy(at(z.below(w - 1 - g, w, n)), shape.stride[2], z.sign, at(g));
-    if (from_above)
       fill_layer(shape, x, y, at(w + n) + g * layer, at(w + n + g));
-    else
-      copy(at(z.above(g, w, n)), shape.stride[2], z.sign, at(w + n + g));
   }
+}
+
+void exchange_layers(const Field& f, int depth, double* below, double* above) {
+  const Grid& grid = f.grid();
+  const parallel::Communicator& ranks = grid.communicator();
+  const WallsAlongZ wall(grid);
+  const std::ptrdiff_t count = static_cast<std::ptrdiff_t>(depth) * grid.cells().i * grid.cells().j;
+  const double* first = f.values().data();
+  const double* last = first + (f.values().size() - count);
+  if (ranks.size() == 1) {
+    if (!wall.below) std::copy_n(last, count, below);
+    if (!wall.above) std::copy_n(first, count, above);
+    return;
+  }
+  const int up = wall.above ? MPI_PROC_NULL : (ranks.rank() + 1) % ranks.size();
+  const int down = wall.below ? MPI_PROC_NULL : (ranks.rank() + ranks.size() - 1) % ranks.size();
+  const int n = static_cast<int>(count);
+  MPI_Sendrecv(last, n, MPI_DOUBLE, up, 0, below, n, MPI_DOUBLE, down, 0, ranks.handle(), MPI_STATUS_IGNORE);
+  MPI_Sendrecv(first, n, MPI_DOUBLE, down, 1, above, n, MPI_DOUBLE, up, 1, ranks.handle(), MPI_STATUS_IGNORE);
 }
 
 std::vector<double> gather(const Field& f) {

@@ -6,54 +6,80 @@ namespace spume::grid {
 
 namespace {
 
-/// Zeros on the lower faces of the first cells across an axis, which are a wall's.
+/// Sets what a layer of cells holds on a wall: its lower faces across an axis, of the first cells. Rows are
+/// `stride` apart.
+void clear_wall(const Index3& n, int axis, int k, std::ptrdiff_t stride, double* layer) {
+  if (axis == 2 && k != 0) return;
+  const int i_end = axis == 0 ? 1 : n.i, j_end = axis == 1 ? 1 : n.j;
+  for (int j = 0; j < j_end; ++j) std::fill_n(layer + j * stride, i_end, 0.0);
+}
+
 void clear_wall(Field& f, int axis) {
   const Grid& grid = f.grid();
   const Index3 n = grid.cells();
-  const auto value = owned(f);
-  const int j_end = axis == 1 ? 1 : n.j, i_end = axis == 0 ? 1 : n.i;
-  for (int k = grid.z_begin(); k < (axis == 2 ? std::min(1, grid.z_end()) : grid.z_end()); ++k)
-    for (int j = 0; j < j_end; ++j)
-      for (int i = 0; i < i_end; ++i) value(i, j, k) = 0;
+  double* layer = f.values().data();
+  for (int k = grid.z_begin(); k < grid.z_end(); ++k, layer += static_cast<std::ptrdiff_t>(n.i) * n.j)
+    clear_wall(n, axis, k, n.i, layer);
+}
+
+/// to ← keep·from + factor·λ of, for n cells in a row; `below` and `above` are the rows of `of` in the
+/// neighbouring layers, its own neighbours are `stride` apart.
+void add_laplacian(int n, const double* from, double keep, const double* of, std::ptrdiff_t stride,
+                   const double* below, const double* above, double factor, double* to) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    const double neighbours = of[i - 1] + of[i + 1] + of[i - stride] + of[i + stride] + below[i] + above[i];
+    to[i] = keep * from[i] + factor * (6 * of[i] - neighbours);
+  }
 }
 
 }  // namespace
 
-/// to ← keep·to + factor·λ of. Values across `walled_axis` (−1: none) lie on faces, and the one beyond the
-/// last is a wall.
-void Sharpening::add_laplacian(const Field& of, double keep, double factor, int walled_axis, Field& to) {
-  ghosted_.update(of);
-  const Grid& grid = of.grid();
-  const Index3 n = grid.cells();
-  const std::ptrdiff_t sy = ghosted_.stride_y(), sz = ghosted_.stride_z();
-  double* row = to.values().data();
-  for (int k = grid.z_begin(); k < grid.z_end(); ++k)
-    for (int j = 0; j < n.j; ++j, row += n.i) {
-      const double* v = ghosted_.at(0, j, k);
-#pragma GCC ivdep
-      for (int i = 0; i < n.i; ++i) {
-        const double neighbours = v[i - 1] + v[i + 1] + v[i - sy] + v[i + sy] + v[i - sz] + v[i + sz];
-        row[i] = keep * row[i] + factor * (6 * v[i] - neighbours);
-      }
-      // The ghosts are mirror images of values at centres; here the far wall's face holds zero.
-      if (walled_axis == 0) row[n.i - 1] += factor * v[n.i];
-      const bool below_wall = (walled_axis == 1 && j == n.j - 1) || (walled_axis == 2 && k == n.k - 1);
-      const double* beyond = v + (walled_axis == 1 ? sy : sz);
-      for (int i = 0; below_wall && i < n.i; ++i) row[i] += factor * beyond[i];
-    }
+/// Layer k of the image, from three layers of u.
+void Sharpening::make_image(int k, int wall_axis) {
+  for (int j = 0; j < n_.j; ++j) {
+    const double* u = u_.row(j, k);
+    add_laplacian(n_.i, u, a, u, u_.stride_y(), u_.row(j, k - 1), u_.row(j, k + 1), b, image_.row(j, k));
+  }
+  if (wall_axis >= 0) clear_wall(n_, wall_axis, k, image_.stride_y(), image_.row(0, k));
+  image_.fill_ghosts(k);
+}
+
+/// Layer k of u + λ image, from three layers of the image, into the field.
+void Sharpening::finish(int k, int wall_axis, double* layer) {
+  for (int j = 0; j < n_.j; ++j) {
+    const double* image = image_.row(j, k);
+    add_laplacian(n_.i, u_.row(j, k), 1, image, image_.stride_y(), image_.row(j, k - 1), image_.row(j, k + 1),
+                  1, layer + static_cast<std::ptrdiff_t>(j) * n_.i);
+  }
+  if (wall_axis >= 0) clear_wall(n_, wall_axis, k, n_.i, layer);
+}
+
+void Sharpening::apply(Field& u, int face_axis) {
+  const Grid& grid = u.grid();
+  const bool walled = face_axis >= 0 && grid.box().boundary[face_axis] != Boundary::Periodic;
+  const int wall_axis = walled ? face_axis : -1;
+  if (walled) clear_wall(u, wall_axis);
+  u_.open(u, face_axis);
+  const auto& [x, y, z] = u_.continuation();
+  image_.continue_by(x, y);
+  const auto layer = [&](int k) {
+    return u.values().data() + static_cast<std::ptrdiff_t>(k - grid.z_begin()) * n_.i * n_.j;
+  };
+  for (int k = u_.first(); k <= u_.last(); ++k) {
+    u_.move_to(k);
+    make_image(k, wall_axis);
+    if (k == grid.z_begin() && u_.walls().below) image_.take_image(k - 1, z.sign_below, k);
+    if (k > grid.z_begin()) finish(k - 1, wall_axis, layer(k - 1));
+  }
+  if (!u_.walls().above) return;
+  const int top = grid.z_end() - 1;
+  image_.take_image(top + 1, z.sign_above, top);
+  finish(top, wall_axis, layer(top));
 }
 
 void Sharpening::apply(VectorField& u, Placement placement) {
-  for (int c = 0; c < 3; ++c) {
-    const bool walled = placement == Placement::Faces && u[c].grid().box().boundary[c] != Boundary::Periodic;
-    const int axis = walled ? c : -1;
-    if (walled) clear_wall(u[c], c);
-    image_ = u[c];
-    add_laplacian(u[c], a, b, axis, image_);
-    if (walled) clear_wall(image_, c);
-    add_laplacian(image_, 1, 1, axis, u[c]);
-    if (walled) clear_wall(u[c], c);
-  }
+  for (int c = 0; c < 3; ++c) apply(u[c], placement == Placement::Faces ? c : -1);
 }
 
 }  // namespace spume::grid

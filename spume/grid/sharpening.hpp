@@ -2,6 +2,7 @@
 
 #include "spume/grid/field.hpp"
 #include "spume/grid/kernel_coupling.hpp"
+#include "spume/grid/layer_window.hpp"
 
 namespace spume::grid {
 
@@ -17,17 +18,20 @@ class Sharpening {
  public:
   static constexpr double a = 0.14, b = 0.085;
 
-  explicit Sharpening(const Grid& grid) : image_(Field(grid)), ghosted_(image_) {}
+  explicit Sharpening(const Grid& grid) : n_(grid.cells()), u_(grid, 2), image_(grid) {}
 
   /// u ← S u, components continued across walls by their symmetry; one that lies on a wall's faces is
   /// zero there, before and after. Collective. The result is bitwise the same on any number of ranks.
   void apply(VectorField& u, Placement placement = Placement::Faces);
 
  private:
-  void add_laplacian(const Field& of, double keep, double factor, int walled_axis, Field& to);
+  void apply(Field& u, int face_axis);
+  void make_image(int k, int wall_axis);
+  void finish(int k, int wall_axis, double* layer);
 
-  Field image_;  ///< a u + b λu
-  Ghosted<1> ghosted_;
+  Index3 n_;
+  LayerWindow u_;
+  LayerRing image_;  ///< a u + b λu
 };
 
 }  // namespace spume::grid

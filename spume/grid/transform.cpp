@@ -53,12 +53,13 @@ void Transform::Pass::execute(fftw_plan plan, double* plane) const {
     fftw_execute_r2r(plan, plane, plane);
 }
 
-Transform::Transform(const Grid& grid, const Symmetry& symmetry)
+Transform::Transform(const Grid& grid, const Symmetry& symmetry, Exchange exchange)
     : n_(grid.cells()),
+      z_begin_(grid.z_begin()),
       n_layers_(grid.z_end() - grid.z_begin()),
-      distributed_(grid.communicator().size() > 1),
       complex_x_(grid.box().boundary[0] == Boundary::Periodic),
-      n_planes_(n_.j) {
+      n_planes_(n_.j),
+      layer_(n_.k, nullptr) {
   const auto& boundary = grid.box().boundary;
   for (int axis = 0; axis < 3; ++axis) {
     const int n_modes = axis == 0 && complex_x_ ? n_.i / 2 + 1 : n_[axis];
@@ -66,10 +67,11 @@ Transform::Transform(const Grid& grid, const Symmetry& symmetry)
     normalisation_ /= (boundary[axis] == Boundary::Periodic ? 1.0 : 2.0) * n_[axis];
   }
   row_length_ = padded_row(static_cast<std::ptrdiff_t>(theta_[0].size()) * (complex_x_ ? 2 : 1));
-  make_buffers(grid.communicator().handle());
-  plan_x(boundary[0], symmetry[0]);
-  along_y_ = plan_plane(n_.j, boundary[1], symmetry[1], buffer_.get());
-  along_z_ = plan_plane(n_.k, boundary[2], symmetry[2], distributed_ ? buffer_.get() : plane_.get());
+  make_buffers(grid, exchange);
+  const Buffer any = allocate(std::max(n_.j, n_.k) * row_length_);
+  plan_x(boundary[0], symmetry[0], any.get());
+  along_y_ = plan_plane(n_.j, boundary[1], symmetry[1], any.get());
+  along_z_ = plan_plane(n_.k, boundary[2], symmetry[2], any.get());
 }
 
 Transform::Buffer Transform::allocate(std::ptrdiff_t n) {
@@ -78,13 +80,32 @@ Transform::Buffer Transform::allocate(std::ptrdiff_t n) {
   return buffer;
 }
 
-void Transform::make_buffers(MPI_Comm comm) {
+void Transform::make_buffers(const Grid& grid, Exchange exchange) {
+  const parallel::Communicator& ranks = grid.communicator();
+  const std::ptrdiff_t layer_size = n_.j * row_length_;
   row_ = allocate(n_.i);
-  if (!distributed_) {
-    buffer_ = allocate(n_layers_ * n_.j * row_length_);
+  if (ranks.size() > 1 && exchange == Exchange::SharedMemory)
+    shared_ = parallel::SharedMemory::among(ranks, static_cast<std::size_t>(n_layers_ * layer_size));
+  if (ranks.size() > 1 && !shared_) {
+    make_message_buffer(ranks.handle());
+  } else {
     plane_ = allocate(n_.k * row_length_);
-    return;
+    const std::vector<int> share = ranks.shares(n_.j);
+    y_begin_ = share[ranks.rank()];
+    n_planes_ = share[ranks.rank() + 1] - y_begin_;
   }
+  if (ranks.size() == 1) buffer_ = allocate(n_layers_ * layer_size);
+
+  std::vector<int> n_before(ranks.size(), 0);  // layers of a rank
+  for (int k = 0; k < n_.k; ++k) {
+    const int owner = grid.owner_of_layer(k);
+    double* const part = shared_ ? shared_->part(owner) : buffer_.get();
+    if (shared_ || owner == ranks.rank()) layer_[k] = part + n_before[owner]++ * layer_size;
+  }
+}
+
+/// Buffer and plans for planes that come and go by messages.
+void Transform::make_message_buffer(MPI_Comm comm) {
   const std::array<std::ptrdiff_t, 2> n{n_.k, n_.j};
   const auto block = FFTW_MPI_DEFAULT_BLOCK;
   std::ptrdiff_t n_layers = 0, z_begin = 0, n_planes = 0, y_begin = 0;
@@ -93,8 +114,7 @@ void Transform::make_buffers(MPI_Comm comm) {
   expects(n_layers == n_layers_, "the slabs of a grid are those of FFTW");
   n_planes_ = static_cast<int>(n_planes);
   y_begin_ = static_cast<int>(y_begin);
-  // Plans are made on one layer and one plane, which a rank with few rows may not own.
-  buffer_ = allocate(std::max(size, std::max(n_.j, n_.k) * row_length_));
+  buffer_ = allocate(size);
   double* data = buffer_.get();
   to_planes_.reset(
       fftw_mpi_plan_many_transpose(n[0], n[1], row_length_, block, block, data, data, comm, effort));
@@ -103,8 +123,7 @@ void Transform::make_buffers(MPI_Comm comm) {
   expects(to_planes_ && to_layers_, "FFTW transposes every size");
 }
 
-void Transform::plan_x(Boundary boundary, Parity parity) {
-  double* modes = buffer_.get();
+void Transform::plan_x(Boundary boundary, Parity parity, double* modes) {
   if (complex_x_) {
     forward_x_.reset(fftw_plan_dft_r2c_1d(n_.i, row_.get(), as_complex(modes), effort));
     backward_x_.reset(fftw_plan_dft_c2r_1d(n_.i, as_complex(modes), row_.get(), effort));
@@ -145,7 +164,7 @@ Transform::Pass Transform::plan_plane(int n, Boundary boundary, Parity parity, d
 void Transform::forward_along_x_and_y(const Field& in) {
   const double* source = in.values().data();
   for (int k = 0; k < n_layers_; ++k) {
-    double* modes = layer(k);
+    double* modes = layer_[z_begin_ + k];
     for (int j = 0; j < n_.j; ++j, modes += row_length_, source += n_.i) {
       std::copy_n(source, n_.i, row_.get());
       if (complex_x_)
@@ -153,14 +172,14 @@ void Transform::forward_along_x_and_y(const Field& in) {
       else
         fftw_execute_r2r(forward_x_.get(), row_.get(), modes);
     }
-    along_y_.forward(layer(k));
+    along_y_.forward(layer_[z_begin_ + k]);
   }
 }
 
 void Transform::backward_along_x_and_y(Field& out) {
   double* target = out.values().data();
   for (int k = 0; k < n_layers_; ++k) {
-    double* modes = layer(k);
+    double* modes = layer_[z_begin_ + k];
     along_y_.backward(modes);
     for (int j = 0; j < n_.j; ++j, modes += row_length_, target += n_.i) {
       if (complex_x_)
@@ -172,25 +191,23 @@ void Transform::backward_along_x_and_y(Field& out) {
   }
 }
 
-void Transform::transpose_to_planes() {
-  if (distributed_) fftw_execute(to_planes_.get());
-}
-
-void Transform::transpose_to_layers() {
-  if (distributed_) fftw_execute(to_layers_.get());
+/// Brings the modes of all ranks from layers to planes, or back.
+void Transform::exchange(const Plan& transpose) const {
+  if (shared_) shared_->synchronise();
+  if (transpose) fftw_execute(transpose.get());
 }
 
 double* Transform::open_plane(int plane) {
-  if (distributed_) return buffer_.get() + plane * n_.k * row_length_;
+  if (to_planes_) return buffer_.get() + plane * n_.k * row_length_;
   for (int k = 0; k < n_.k; ++k)
-    std::copy_n(layer(k) + plane * row_length_, row_length_, plane_.get() + k * row_length_);
+    std::copy_n(layer_[k] + (y_begin_ + plane) * row_length_, row_length_, plane_.get() + k * row_length_);
   return plane_.get();
 }
 
 void Transform::close_plane(int plane) {
-  if (distributed_) return;
+  if (to_planes_) return;
   for (int k = 0; k < n_.k; ++k)
-    std::copy_n(plane_.get() + k * row_length_, row_length_, layer(k) + plane * row_length_);
+    std::copy_n(plane_.get() + k * row_length_, row_length_, layer_[k] + (y_begin_ + plane) * row_length_);
 }
 
 void Transform::multiply(double* modes, const double* factor) const {
