@@ -188,7 +188,7 @@ std::optional<Vec3> PhasePotentials::project_on_junction(const Vec3& start,
 }
 
 PhasePotentials potentials_of(const grid::Box& box, std::span<const CellBox> cells,
-                              std::span<const std::vector<double>> indicator, double variance, double floor) {
+                              std::vector<std::vector<double>> indicator, double variance, double floor) {
   const FlatFilmMap map(variance, floor);
   const CellBox whole = all_cells(box.cells);
   PhasePotentials potentials(box);
@@ -201,7 +201,7 @@ PhasePotentials potentials_of(const grid::Box& box, std::span<const CellBox> cel
 
   for (std::size_t p = 0; p < cells.size(); ++p) {
     if (cells[p].empty()) continue;
-    PhaseField field{static_cast<mesh::Phase>(p), cells[p], map.distance(0), indicator[p]};
+    PhaseField field{static_cast<mesh::Phase>(p), cells[p], map.distance(0), std::move(indicator[p])};
     map.to_distances(field.value);
     potentials.set(std::move(field));
   }

@@ -77,7 +77,7 @@ class PhasePotentials {
 /// others. `indicator` of each phase on its
 /// `cells` as of smoothed_indicators(); `variance` [m²] and `floor` as of FlatFilmMap.
 PhasePotentials potentials_of(const grid::Box& box, std::span<const CellBox> cells,
-                              std::span<const std::vector<double>> indicator, double variance, double floor);
+                              std::vector<std::vector<double>> indicator, double variance, double floor);
 
 /// At every cell the phase with the largest ψ, the lowest of equals. Each rank does its share of the layers
 /// of cells and gets the whole. Collective.

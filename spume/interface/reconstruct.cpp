@@ -34,10 +34,10 @@ PhasePotentials potentials_from(const grid::Grid& grid, mesh::FilmMesh films, co
   step_in_advance(films, topology, variance / 10 + parameters.relaxation * h * h, h, n_phases);
   const auto midpoints = edge_midpoints(films, topology);
   const PhaseBlocks blocks = blocks_of_phases(grid, films, n_phases);
-  const auto indicators = smoothed_indicators(grid, films, midpoints, blocks, variance);
+  auto indicators = smoothed_indicators(grid, films, midpoints, blocks, variance);
   times.lap("indicators");
   PhasePotentials potentials =
-      potentials_of(grid.box(), blocks.cells, indicators, variance, parameters.profile_floor);
+      potentials_of(grid.box(), blocks.cells, std::move(indicators), variance, parameters.profile_floor);
   times.lap("potentials");
   return potentials;
 }
