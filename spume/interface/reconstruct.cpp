@@ -90,16 +90,16 @@ bool has_edge_below(const mesh::FilmMesh& films, double length) {
 }
 
 /// Draws together what is no longer than merge_below edges.
-void tidy(const parallel::Communicator& ranks, mesh::FilmMesh& films, const ReconstructParameters& parameters,
-          double h) {
-  mesh::RemeshParameters tidying = parameters.remesh;
-  tidying.collapse_below = tidying.merge_below;
-  tidying.smoothing_sweeps = 0;
+void merge_tiny_edges(const parallel::Communicator& ranks, mesh::FilmMesh& films,
+                      const ReconstructParameters& parameters, double h) {
+  mesh::RemeshParameters merging = parameters.remesh;
+  merging.collapse_below = merging.merge_below;
+  merging.smoothing_sweeps = 0;
   const double edge_length = parameters.edge * h;
-  if (!has_edge_below(films, tidying.merge_below * edge_length)) return;
+  if (!has_edge_below(films, merging.merge_below * edge_length)) return;
   const auto where_it_is = [](const Vec3& x, const mesh::PhaseSet&) { return std::optional(x); };
   mesh::remesh(
-      films, [=](const Vec3&) { return edge_length; }, where_it_is, tidying, ranks);
+      films, [=](const Vec3&) { return edge_length; }, where_it_is, merging, ranks);
 }
 
 /// Relaxes a fresh mesh over a short time, by which the step in advance was longer: smooth shapes stay as
@@ -114,7 +114,7 @@ mesh::Topology settle(const parallel::Communicator& ranks, mesh::FilmMesh& films
       parameters.conserve_volumes ? phases.target_volume : mesh::phase_volumes(films, phases.count());
   relax_briefly(films, mesh::build_vertex_topology(films), phases.count(), parameters.relaxation * h * h,
                 n_steps);
-  tidy(ranks, films, parameters, h);
+  merge_tiny_edges(ranks, films, parameters, h);
   // Volumes are good to a millionth by now, and two iterations make that 1e-9.
   mesh::restore_volumes(films, volume, 2, largest_volume_step * h);
   return mesh::build_topology(films);

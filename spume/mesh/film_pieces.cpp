@@ -46,13 +46,13 @@ struct Reached {
 void put_together(const FilmMesh& mesh, const Topology& topology, int first, Reached& reached,
                   FilmPieces& pieces) {
   const Domain& domain = mesh.domain;
-  std::array<bool, 3>& bounded = pieces.bounded[pieces.of_vertex[first]];
   reached.open.push_back(first);
   reached.vertex[first] = 1;
   while (!reached.open.empty()) {
     const int v = reached.open.back();
     reached.open.pop_back();
     const Vec3 here = pieces.position[v];
+    std::array<bool, 3>& bounded = pieces.bounded[pieces.of_vertex[v]];
     for (int s = topology.star_offset[v]; s < topology.star_offset[v + 1]; ++s) {
       const int t = topology.star_triangle[s];
       if (reached.triangle[t]) continue;

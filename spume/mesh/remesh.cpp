@@ -93,10 +93,16 @@ RemeshReport remesh(FilmMesh& mesh, const TargetLength& target, const Projection
   const auto work = [&](FilmMesh& part, int n_cut) {
     add(remesh_part(part, n_cut, target, project, parameters), own);
   };
+  // Before there are cuts, whose edges no slab could split: what it would split beside them is sliver by
+  // sliver.
+  if (parameters.split_above > 0) {
+    WorkingMesh whole(mesh);
+    split_until_short(whole, target, project, parameters, report);
+  }
   const Slabs slabs = slabs_to_remesh(mesh, target, parameters);
   if (slabs.count() < 2) {
     work(mesh, 0);
-    report = own;
+    add(own, report);
   } else {
     const int n_cut = work_in_parts(mesh, slabs.of_triangles(mesh), slabs.count(), work, ranks);
     const Seams seams = seams_around_cuts(mesh, slabs, n_cut, reach_of_seam);

@@ -22,10 +22,11 @@ using TargetLength = std::function<double(const Vec3& position)>;
 /// target, each as if nothing were beyond its cuts, and then in seams around the cuts. Results depend on the
 /// mesh alone, not on ranks. Target lengths between points are the mean of those at the ends of an edge.
 /// Coarsening alone (split_above = 0) is collapse_short_edges, flip_edges and the sweeps of smooth, once;
-/// refinement repeats split_long_edges and these until nothing is split or collapsed, four times at most, and
-/// then a few edges may be longer than split_above × target. 1.4 is a good value of split_above: halves must
-/// not be short enough to collapse (split_above ≥ 2 collapse_below). Vertices on an edge of a single
-/// triangle, where a film ends at a wall, do not move and do not disappear.
+/// refinement repeats split_long_edges and these until next to nothing is split or collapsed (two in a
+/// thousand vertices), four times at most, and then a few edges may be longer than split_above × target. 1.4
+/// is a good value of split_above: halves must not be short enough to collapse (split_above ≥ 2
+/// collapse_below). Vertices on an edge of a single triangle, where a film ends at a wall, do not move and do
+/// not disappear.
 struct RemeshParameters {
   double collapse_below = 0.7;  ///< collapse edges shorter than this × target
   double no_edge_beyond = 1.8;  ///< a collapse may not make an edge longer than this × target

@@ -151,9 +151,8 @@ int count_poor_triangles(const mesh::FilmMesh& films, const Shape& good, double 
   return n;
 }
 
-/// Lamellae and borders that are smaller than what a reconstruction draws together.
-int count_vanishing(const mesh::FilmMesh& films, const mesh::Topology& topology, double h) {
-  const double length = 0.3 * h;
+/// Lamellae and borders that are smaller than `length` [m].
+int count_vanishing(const mesh::FilmMesh& films, const mesh::Topology& topology, double length) {
   int n = 0;
   for (double area : mesh::lamella_areas(films, topology)) n += area < length * length;
   for (double border : mesh::border_lengths(films, topology)) n += border < length;
@@ -164,14 +163,16 @@ int count_vanishing(const mesh::FilmMesh& films, const mesh::Topology& topology,
 /// against that.
 class Wear {
  public:
-  explicit Wear(const std::vector<Vec3>& position, double h) : h_(h), reference_(position) {}
+  /// Films shorter than `vanishing` [m] are drawn together by a reconstruction.
+  Wear(const std::vector<Vec3>& position, double h, double vanishing)
+      : h_(h), vanishing_(vanishing), reference_(position) {}
 
   /// After a reconstruction, `for_vanishing_films` or for another reason.
   void start(const mesh::FilmMesh& films, const mesh::Topology& topology, bool for_vanishing_films) {
     motion_ = 0;
     reference_ = films.position;
     n_poor_at_rest_ = n_poor_in_motion_ = 0;
-    n_vanishing_ = for_vanishing_films ? count_vanishing(films, topology, h_) : 0;
+    n_vanishing_ = for_vanishing_films ? count_vanishing(films, topology, vanishing_) : 0;
   }
   /// After tidying, which renews the triangles alone.
   void start_triangles(const mesh::FilmMesh& films, double motion) {
@@ -190,28 +191,29 @@ class Wear {
                    : count_poor_triangles(films, good_in_motion, h_) > n_poor_in_motion_;
   }
   bool has_vanishing_films(const mesh::FilmMesh& films, const mesh::Topology& topology) const {
-    return count_vanishing(films, topology, h_) > n_vanishing_;
+    return count_vanishing(films, topology, vanishing_) > n_vanishing_;
   }
 
  private:
-  double h_, motion_ = 0;
+  double h_, vanishing_, motion_ = 0;
   std::vector<Vec3> reference_;
   int n_poor_at_rest_ = 0, n_poor_in_motion_ = 0, n_vanishing_ = 0;
 };
 
 /// Flips and collapses what has become poor in a mesh, which stays where it is; the liquid goes along. Gives
-/// the new topology.
-mesh::Topology tidy(const grid::Grid& grid, const Case& run_case, const mesh::Topology& topology,
-                    state::Foam& foam) {
+/// the new topology; none where nothing could be done.
+std::optional<mesh::Topology> tidy(const grid::Grid& grid, const Case& run_case,
+                                   const mesh::Topology& topology, state::Foam& foam) {
   const double h = grid.h();
   mesh::RemeshParameters parameters = run_case.reconstruct.remesh;
   parameters.merge_below = 0;  // a reconstruction's task
   parameters.collapse_below = 0.4;
   parameters.smoothing_sweeps = 0;
   mesh::FilmMesh films = foam.films;
-  mesh::remesh(
+  const mesh::RemeshReport report = mesh::remesh(
       films, [edge_length = run_case.reconstruct.edge * h](const Vec3&) { return edge_length; },
       [](const Vec3& x, const mesh::PhaseSet&) { return std::optional(x); }, parameters, grid.communicator());
+  if (!report.changed()) return std::nullopt;
   mesh::restore_volumes(films, foam.phases.target_volume, 3, 0.1 * h);
   mesh::Topology tidied = mesh::build_topology(films);
   transport::TransferReport transfer;
@@ -232,7 +234,10 @@ class Regain {
     area_ = area;
     n_left_ = most_steps;
   }
-  bool goes_on(double area) { return area > area_ && n_left_-- > 0; }
+  bool goes_on(double area) {
+    if (area <= area_) n_left_ = 0;
+    return n_left_-- > 0;
+  }
 
  private:
   static constexpr int most_steps = 10;
@@ -261,12 +266,19 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
   fine_case.reconstruct.remesh.merge_below /= fine_case.reconstruct.edge;
   const bool came_fine = mean_edge(foam.films) < 0.8 * h;
   bool is_fine = false;
+  const double vanishing = run_case.reconstruct.remesh.merge_below * run_case.reconstruct.edge * h;
   Descent descent(mean_bubble_radius(foam.phases), largest_step_cells * h);
   Regain regain;
 
   EquilibrateReport report;
+  if (foam.films.triangle.empty()) {
+    report = {.virial_error = 0, .area_change = 0, .area_to_fall = 0, .converged = true};
+    return report;
+  }
+  // A step restores the volumes, and could not lower the area of films that hold too little.
+  mesh::restore_volumes(foam.films, foam.phases.target_volume, 3, 0.1 * h);
   mesh::Topology topology = mesh::build_topology(foam.films);
-  Wear wear(foam.films.position, h);
+  Wear wear(foam.films.position, h, vanishing);
   int n_waits = 0;
   while (report.n_steps < most_steps) {
     const auto step = descent.step(foam.films, topology, foam.phases);
@@ -281,13 +293,13 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
     const double motion = wear.motion(foam.films);
     const bool at_rest = report.area_to_fall < rest && report.virial_error < largest_virial_error;
     const bool poor = wear.has_poor_triangles(foam.films, at_rest);
-    const bool vanishing =
+    const bool has_vanishing =
         (at_rest || motion > least_motion_cells) && wear.has_vanishing_films(foam.films, topology);
-    if (motion < largest_motion_cells && !at_rest && !poor && !vanishing) continue;
+    if (motion < largest_motion_cells && !at_rest && !poor && !has_vanishing) continue;
     const bool on_fine_mesh = is_fine || (came_fine && report.n_reconstructions == 0);
-    if (at_rest && on_fine_mesh && !poor && !vanishing) {
+    if (at_rest && on_fine_mesh && !poor && !has_vanishing) {
       // A film that is left too small by a reconstruction of a mesh at rest grows, slowly at first.
-      if (n_waits < most_waits && count_vanishing(foam.films, topology, h) > 0) {
+      if (n_waits < most_waits && count_vanishing(foam.films, topology, vanishing) > 0) {
         ++n_waits;
         continue;
       }
@@ -298,18 +310,21 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
       continue;
     }
 
-    descent.restart();
-    if (poor && !vanishing && motion < largest_motion_cells) {
-      topology = tidy(grid, is_fine ? fine_case : run_case, topology, foam);
+    if (poor && !has_vanishing && motion < largest_motion_cells) {
+      if (auto tidied = tidy(grid, on_fine_mesh ? fine_case : run_case, topology, foam)) {
+        topology = std::move(*tidied);
+        descent.restart();
+      }
       wear.start_triangles(foam.films, motion);
       continue;
     }
-    is_fine = is_fine || (at_rest && !vanishing);
+    descent.restart();
+    is_fine = is_fine || (at_rest && !has_vanishing);
     FilmUpdate update = reconstruct_films(grid, is_fine ? fine_case : run_case, topology, foam);
     ++report.n_reconstructions;
     events.insert(events.end(), update.events.begin(), update.events.end());
     topology = std::move(update.topology);
-    wear.start(foam.films, topology, vanishing);
+    wear.start(foam.films, topology, has_vanishing);
     if (update.events.empty()) regain.start(step->area_after);
   }
   return report;

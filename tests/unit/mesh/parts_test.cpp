@@ -247,6 +247,24 @@ TEST(Remesh, in_slabs_is_as_good_as_in_one) {
   EXPECT_NEAR(quality.longest_edge, quality_in_one.longest_edge, 0.1 * edge);
 }
 
+// Edges seven target lengths long, more than the seams are wide: split in the slabs alone they left hundreds
+// of inverted triangles beside the cuts. In one piece the smallest angle is 29 to 31 degrees.
+TEST(Remesh, refines_a_coarse_mesh_in_slabs) {
+  for (int n : {6, 8}) {
+    FilmMesh mesh = shapes::four_bubbles(radius, n);
+    const double edge = 0.15 * radius / n;
+    const auto on_bubbles = [](const Vec3& x, const PhaseSet& phases) {
+      return std::optional(shapes::on_four_bubbles(radius, x, phases));
+    };
+    remesh(mesh, [=](const Vec3&) { return edge; }, on_bubbles,
+           {.split_above = 1.4, .least_slab = mesh.n_vertices() / 2});
+    const Quality quality = measure_quality(mesh, build_topology(mesh));
+    EXPECT_GT(mesh.n_vertices(), 12 * 6 * n * n);
+    EXPECT_EQ(quality.n_inverted, 0);
+    EXPECT_GT(quality.smallest_angle_degrees, 25);
+  }
+}
+
 TEST(Remesh, in_slabs_between_which_there_are_no_films_is_that_of_each_piece) {
   const FilmMesh one = shapes::sphere({0, 0, 0}, radius, 4, 1);
   FilmMesh both = one;

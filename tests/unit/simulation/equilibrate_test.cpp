@@ -102,5 +102,37 @@ TEST(Equilibrate, takes_few_reconstructions_in_a_foam_that_fills_the_box) {
   EXPECT_LE(relaxed.report.n_reconstructions, 9);
 }
 
+// Films whose bubbles hold a hundredth less than they should: more gas needs more area, and no step could
+// lower it.
+TEST(Equilibrate, gives_bubbles_their_gas_before_it_looks_for_less_area) {
+  Case run_case = empty_case(28);
+  run_case.foam.bubble.push_back({{}, {7 * h, 7 * h, 8 * h}});
+  const grid::Grid grid(parallel::Communicator::world(), run_case.box);
+  state::Foam foam(grid);
+  std::vector<state::Event> events;
+  make_initial_foam(run_case, foam, events);
+  foam.phases.target_volume[1] *= 1.01;
+  const auto report = equilibrate(grid, run_case, foam, events, [](const auto& step, const auto&) {
+    EXPECT_LE(step.area_after, step.area_before);
+    return true;
+  });
+  EXPECT_TRUE(report.converged);
+  EXPECT_NEAR(mesh::phase_volumes(foam.films, 2)[1] / foam.phases.target_volume[1], 1, 1e-8);
+}
+
+TEST(Equilibrate, finds_a_foam_without_films_at_rest) {
+  const Case run_case = empty_case(16);
+  const grid::Grid grid(parallel::Communicator::world(), run_case.box);
+  state::Foam foam(grid);
+  std::vector<state::Event> events;
+  const auto report = equilibrate(grid, run_case, foam, events, [](const auto&, const auto&) {
+    ADD_FAILURE() << "no step to be taken";
+    return true;
+  });
+  EXPECT_TRUE(report.converged);
+  EXPECT_EQ(report.area_to_fall, 0);
+  EXPECT_TRUE(events.empty());
+}
+
 }  // namespace
 }  // namespace spume::simulation
