@@ -50,7 +50,10 @@ FoundFilms find_films(const parallel::Communicator& ranks, PhasePotentials& pote
     found.topology = mesh::build_topology(found.films);
     if (retry == max_retries) break;
     const int n_specks = suppress_specks(potentials, winners, found.films, found.topology, smallest_volume);
-    if (n_specks == 0 && found.topology.n_nonconforming_edges == 0) break;
+    const TornBubbles torn = torn_bubbles(potentials.h(), found.films, found.topology, smallest_volume);
+    const bool separated =
+        !torn.phase.empty() && separate_pieces(potentials, winners, phases, smallest_volume, changes, torn);
+    if (n_specks == 0 && !separated && found.topology.n_nonconforming_edges == 0) break;
     if (found.topology.n_nonconforming_edges > 0) {
       perturb_ties(potentials, amplitude, retry);
       amplitude *= 10;

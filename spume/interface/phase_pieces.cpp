@@ -186,32 +186,64 @@ std::vector<ClosedSurface> closed_surfaces(const mesh::FilmMesh& films, const me
   return surfaces;
 }
 
-}  // namespace
-
-PhasePieces find_pieces(const Lattice& lattice, const std::vector<mesh::Phase>& winner) {
+/// Calls visit(n, m, by_face) for runs n and m of one phase that are linked, by faces of cells or only across
+/// edges and corners.
+template <class Visit>
+void for_each_link(const Lattice& lattice, const std::vector<CellRun>& runs,
+                   const std::vector<int>& first_of_row, Visit&& visit) {
   const Index3& cells = lattice.cells;
-  std::vector<int> first_of_row;
-  PhasePieces result{find_runs(cells, winner, first_of_row), {}};
-  auto& runs = result.run;
-  UnionFind classes(static_cast<int>(runs.size()));
   // Links of a row to the rows one step up in j, in k, or in both; along i they reach from 0 to 1.
   constexpr std::array<std::array<int, 2>, 3> steps{{{1, 0}, {0, 1}, {1, 1}}};
   for (int n = 0; n < static_cast<int>(runs.size()); ++n) {
     const CellRun& run = runs[n];
     const bool goes_over = lattice.periodic[0] && run.i_end == cells.i;
-    if (const CellRun& first = runs[first_of_row[run.k * cells.j + run.j]];
-        goes_over && first.phase == run.phase)
-      classes.join(n, first_of_row[run.k * cells.j + run.j]);
+    const int first = first_of_row[run.k * cells.j + run.j];
+    if (goes_over && runs[first].phase == run.phase) visit(n, first, true);
     for (const auto& [dj, dk] : steps) {
       const int j = lattice.image(run.j + dj, 0, 1), k = lattice.image(run.k + dk, 0, 2);
       if (j >= cells.j || k >= cells.k) continue;
       const int row = k * cells.j + j;
       for (int m = first_of_row[row]; m < first_of_row[row + 1]; ++m) {
-        const bool meet = runs[m].i_begin <= run.i_end && runs[m].i_end > run.i_begin;
-        if (runs[m].phase == run.phase && (meet || (goes_over && runs[m].i_begin == 0))) classes.join(n, m);
+        if (runs[m].phase != run.phase) continue;
+        const bool overlap = runs[m].i_begin < run.i_end && runs[m].i_end > run.i_begin;
+        const bool meet = overlap || runs[m].i_begin == run.i_end || (goes_over && runs[m].i_begin == 0);
+        if (meet) visit(n, m, overlap && dj + dk == 1);
       }
     }
   }
+}
+
+/// Joins each class of fewer cells than `least` to one larger class that it is linked to.
+void keep_crumbs(const Lattice& lattice, const std::vector<CellRun>& runs,
+                 const std::vector<int>& first_of_row, std::size_t least, UnionFind& classes) {
+  std::vector<int> class_of_run;
+  std::vector<std::size_t> size(classes.number(class_of_run), 0);
+  for (std::size_t n = 0; n < runs.size(); ++n) size[class_of_run[n]] += runs[n].i_end - runs[n].i_begin;
+  std::vector<char> kept(size.size(), 0);
+  for_each_link(lattice, runs, first_of_row, [&](int n, int m, bool) {
+    const int a = class_of_run[n], b = class_of_run[m];
+    if ((size[a] < least) == (size[b] < least)) return;
+    char& done = kept[size[a] < least ? a : b];
+    if (!done) classes.join(n, m);
+    done = 1;
+  });
+}
+
+}  // namespace
+
+PhasePieces find_pieces(const Lattice& lattice, const std::vector<mesh::Phase>& winner,
+                        const TornBubbles& torn) {
+  std::vector<int> first_of_row;
+  PhasePieces result{find_runs(lattice.cells, winner, first_of_row), {}};
+  auto& runs = result.run;
+  UnionFind classes(static_cast<int>(runs.size()));
+  const auto is_torn = [&](mesh::Phase p) {
+    return std::find(torn.phase.begin(), torn.phase.end(), p) != torn.phase.end();
+  };
+  for_each_link(lattice, runs, first_of_row, [&](int n, int m, bool by_face) {
+    if (by_face || !is_torn(runs[n].phase)) classes.join(n, m);
+  });
+  if (!torn.phase.empty()) keep_crumbs(lattice, runs, first_of_row, torn.least_cells, classes);
   std::vector<int> piece_of_run;
   result.piece.assign(classes.number(piece_of_run), {-1, no_cells(), 0});
   for (std::size_t n = 0; n < runs.size(); ++n) {
@@ -227,10 +259,11 @@ PhasePieces find_pieces(const Lattice& lattice, const std::vector<mesh::Phase>& 
 }
 
 bool separate_pieces(PhasePotentials& potentials, const std::vector<mesh::Phase>& winner,
-                     state::Phases& phases, double smallest_volume, std::vector<PhaseChange>& changes) {
+                     state::Phases& phases, double smallest_volume, std::vector<PhaseChange>& changes,
+                     const TornBubbles& torn) {
   const Lattice& lattice = potentials.lattice();
   const double h = potentials.h(), cell_volume = h * h * h;
-  const PhasePieces pieces = find_pieces(lattice, winner);
+  const PhasePieces pieces = find_pieces(lattice, winner, torn);
   std::map<mesh::Phase, std::vector<int>> of_phase;
   for (std::size_t n = 0; n < pieces.piece.size(); ++n)
     of_phase[pieces.piece[n].phase].push_back(static_cast<int>(n));
@@ -294,6 +327,17 @@ void settle_new_phases(const mesh::FilmMesh& films, const mesh::Topology& topolo
     phases.target_volume[c.other] = c.volume;
     phases.target_volume[root] -= c.volume;
   }
+}
+
+TornBubbles torn_bubbles(double h, const mesh::FilmMesh& films, const mesh::Topology& topology,
+                         double smallest_volume) {
+  std::map<mesh::Phase, int> n_surfaces;
+  for (const ClosedSurface& s : closed_surfaces(films, topology))
+    if (s.phase != 0 && s.volume >= smallest_volume) ++n_surfaces[s.phase];
+  TornBubbles torn{{}, static_cast<std::size_t>(std::ceil(smallest_volume / (h * h * h)))};
+  for (const auto& [phase, n] : n_surfaces)
+    if (n > 1) torn.phase.push_back(phase);
+  return torn;
 }
 
 int suppress_specks(PhasePotentials& potentials, const std::vector<mesh::Phase>& winner,

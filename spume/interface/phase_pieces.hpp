@@ -14,7 +14,8 @@ using PhaseChange = ReconstructReport::PhaseChange;
 
 /// A connected set of cells of one phase. Cells are linked along the edges of the Kuhn tetrahedra (steps of 0
 /// or 1 along every axis, all of one sign): that is how the contour links them, because a phase that wins at
-/// both ends of an edge wins all along it.
+/// both ends of an edge wins all along it. Only where the contour looks closer, at values
+/// between the cells, may it cut a link: see torn_bubbles().
 struct PhasePiece {
   mesh::Phase phase;
   CellBox cells;  ///< bounding box of its cells as they are numbered in the grid
@@ -33,8 +34,21 @@ struct PhasePieces {
   std::vector<PhasePiece> piece;  ///< in the order of their first cell
 };
 
-/// The pieces of all phases; `winner` as of find_winners(). Pieces continue across periodic faces.
-PhasePieces find_pieces(const Lattice& lattice, const std::vector<mesh::Phase>& winner);
+/// Bubbles that the contour has torn though their cells are linked, at a neck thinner than a cell.
+struct TornBubbles {
+  std::vector<mesh::Phase> phase;
+  std::size_t least_cells = 0;  ///< of a piece
+};
+
+/// The pieces of all phases; `winner` as of find_winners(). Pieces continue across periodic faces. Of torn
+/// bubbles pieces hang together by faces of cells alone, and what is smaller than a piece stays with one that
+/// it is linked to.
+PhasePieces find_pieces(const Lattice& lattice, const std::vector<mesh::Phase>& winner,
+                        const TornBubbles& torn = {});
+
+/// The bubbles whose films enclose `smallest_volume` [m³] or more in several closed surfaces.
+TornBubbles torn_bubbles(double h, const mesh::FilmMesh& films, const mesh::Topology& topology,
+                         double smallest_volume);
 
 /// Makes every phase one piece. The largest piece keeps the phase. Another one becomes a new phase when its
 /// cells fill at least `smallest_volume` [m³]: a Split of a bubble or a Pocket of the outside, appended to
@@ -43,7 +57,8 @@ PhasePieces find_pieces(const Lattice& lattice, const std::vector<mesh::Phase>& 
 /// d_old) and the old one ψ_p − max(0, d_old − d_new), both unchanged near their own films. Appends to
 /// `changes`; gives whether there was anything to do, in which case the winners have changed.
 bool separate_pieces(PhasePotentials& potentials, const std::vector<mesh::Phase>& winner,
-                     state::Phases& phases, double smallest_volume, std::vector<PhaseChange>& changes);
+                     state::Phases& phases, double smallest_volume, std::vector<PhaseChange>& changes,
+                     const TornBubbles& torn = {});
 
 /// Gives target volumes to the phases born by changes[first …], from the volumes of their smooth films:
 /// pieces of a bubble share its target in proportion to their volumes, pockets get what was measured. Volumes

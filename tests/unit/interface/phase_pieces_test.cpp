@@ -46,6 +46,32 @@ TEST(PhasePieces, AreLinkedAlongTheEdgesOfTheTetrahedra) {
   EXPECT_EQ(of_phase, (std::vector<int>{1, 1, 2}));
 }
 
+// Two cubes of 27 cells that touch at a corner, and a cell on a face of the upper one.
+TEST(PhasePieces, OfATornBubbleHangTogetherByFacesAndKeepTheirCrumbs) {
+  const Index3 cells{8, 8, 8};
+  std::vector<mesh::Phase> winner(8 * 8 * 8, 0);
+  const auto set = [&](int i, int j, int k) { winner[(k * 8 + j) * 8 + i] = 1; };
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i) {
+        set(1 + i, 1 + j, 1 + k);
+        set(4 + i, 4 + j, 4 + k);
+      }
+  set(4, 4, 3);
+  const auto sizes = [&](const TornBubbles& torn) {
+    std::vector<std::size_t> n_cells;
+    for (const PhasePiece& piece : find_pieces(Lattice{cells}, winner, torn).piece)
+      if (piece.phase == 1) n_cells.push_back(piece.n_cells);
+    return n_cells;
+  };
+  EXPECT_EQ(sizes({}), (std::vector<std::size_t>{55}));
+  EXPECT_EQ(sizes({{1}, 10}), (std::vector<std::size_t>{27, 28}));
+  set(4, 4, 3 - 1);
+  winner[(3 * 8 + 4) * 8 + 4] = 0;  // the crumb at (4, 4, 2) touches the lower cube alone, at an edge
+  EXPECT_EQ(sizes({{1}, 10}), (std::vector<std::size_t>{28, 27}));
+  EXPECT_EQ(sizes({{2}, 10}), (std::vector<std::size_t>{55}));
+}
+
 TEST(SeparatePieces, GivesALargePieceANewPhase) {
   auto potentials = testing::sampled(testing::cube_box(32),
                                      union_of({{{-6 * h, 0, 0}, 5 * h}, {{4 * h, 0.3 * h, 0}, 3 * h}}), 2);
