@@ -6,6 +6,7 @@
 
 #include "spume/base/contract.hpp"
 #include "spume/mesh/measure.hpp"
+#include "spume/transport/ledger.hpp"
 
 namespace spume::transport {
 
@@ -49,6 +50,7 @@ void stretch_evenly(const mesh::FilmMesh& from, const mesh::FilmMesh& to, const 
                     state::FilmLiquid& liquid) {
   expects(liquid.lamella_volume.size() == topology.film_dof.size(), "one liquid volume per film dof");
   expects(liquid.border_volume.size() == topology.border_dof.size(), "one liquid volume per border dof");
+  const double before = liquid.total();
   StretchedPieces lamellae{{}, mesh::film_dof_areas(from, topology), mesh::film_dof_areas(to, topology)};
   for (const auto& dof : topology.film_dof) lamellae.piece_of_dof.push_back(dof.lamella);
   stretch(topology.n_lamellae(), lamellae, liquid.lamella_volume);
@@ -56,6 +58,7 @@ void stretch_evenly(const mesh::FilmMesh& from, const mesh::FilmMesh& to, const 
       {}, mesh::border_dof_lengths(from, topology), mesh::border_dof_lengths(to, topology)};
   for (const auto& dof : topology.border_dof) borders.piece_of_dof.push_back(dof.border);
   stretch(topology.n_borders(), borders, liquid.border_volume);
+  close_ledger(before, liquid);
 }
 
 }  // namespace spume::transport
