@@ -13,6 +13,7 @@
 #include "spume/mesh/remesh.hpp"
 #include "spume/mesh/volume_constraint.hpp"
 #include "spume/simulation/equilibrium.hpp"
+#include "spume/transport/even_stretch.hpp"
 
 namespace spume::simulation {
 
@@ -281,8 +282,10 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
   Wear wear(foam.films.position, h, vanishing);
   int n_waits = 0;
   while (report.n_steps < most_steps) {
+    const mesh::FilmMesh before = foam.films;
     const auto step = descent.step(foam.films, topology, foam.phases);
     if (!step) continue;
+    transport::stretch_evenly(before, foam.films, topology, foam.liquid);
     ++report.n_steps;
     report.virial_error = step->virial_error;
     report.area_change = descent.area_change();
@@ -327,6 +330,7 @@ EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, stat
     wear.start(foam.films, topology, has_vanishing);
     if (update.events.empty()) regain.start(step->area_after);
   }
+  transport::fill_young_films(foam.films, topology, foam.liquid, h, run_case.transport);
   return report;
 }
 

@@ -33,7 +33,8 @@ using OnRelaxStep = std::function<bool(const interface::RelaxStepReport&, const 
 /// motion, and after half a cell or at rest if a lamella or border has become smaller than 0.3 h, which then
 /// vanishes or comes back larger. At rest when the area has less than 1e-5 to fall and the virial identity
 /// holds within 1e-4, first on the ordinary mesh, then on a finer one (edges of 0.57 h in the mean), which
-/// the foam keeps. A foam without films is at rest. Collective.
+/// the foam keeps. A foam without films is at rest. Its liquid goes along with films that stretch evenly
+/// (transport::stretch_evenly). Collective.
 EquilibrateReport equilibrate(const grid::Grid& grid, const Case& run_case, state::Foam& foam,
                               std::vector<state::Event>& events, const OnRelaxStep& on_step);
 

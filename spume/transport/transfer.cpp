@@ -1,15 +1,14 @@
 #include "spume/transport/transfer.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "spume/base/contract.hpp"
-#include "spume/base/error.hpp"
 #include "spume/mesh/measure.hpp"
 #include "spume/transport/births_and_deaths.hpp"
 #include "spume/transport/border_transfer.hpp"
 #include "spume/transport/film_transfer.hpp"
+#include "spume/transport/ledger.hpp"
 #include "spume/transport/liquid_mesh.hpp"
 #include "spume/transport/small_films.hpp"
 
@@ -22,16 +21,6 @@ void expect_sizes(const mesh::Topology& topology, const state::FilmLiquid& liqui
   expects(liquid.border_volume.size() == topology.border_dof.size(), "one liquid volume per border dof");
   expects(liquid.lamella_is_young.size() == topology.lamella.size(), "one young flag per lamella");
   expects(liquid.lamella_area_at_transfer.size() == topology.lamella.size(), "one area per lamella");
-}
-
-/// Every rule conserves up to the last digit of its sums; what these digits add up to goes to the fullest
-/// dof.
-void close_ledger(double before, state::FilmLiquid& liquid) {
-  const double error = before - liquid.total();
-  if (!(std::abs(error) <= 1e-10 * before))
-    throw NumericalError("the transfer of liquid between film meshes did not conserve it");
-  const auto fullest = std::max_element(liquid.lamella_volume.begin(), liquid.lamella_volume.end());
-  if (fullest != liquid.lamella_volume.end() && *fullest + error >= 0) *fullest += error;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "spume/verification/bubble_wave.hpp"
 #include "spume/verification/foam_run.hpp"
 #include "spume/verification/modes.hpp"
 
@@ -42,6 +43,20 @@ double stokes_layer_cells(const OscillationSetting& setting) {
   return std::sqrt(2 * setting.viscosity / exact.omega) * setting.cells_per_radius;
 }
 
+Decay fit_exact(const OscillationSetting& setting) {
+  constexpr int n_samples = 400;
+  const WaveMaterials materials{1, setting.viscosity, 1};
+  const Decay mode = bubble_mode(setting.mode, 1, materials);
+  const BubbleWave wave(setting.mode, 1, materials);
+  const double period = 2 * pi / mode.omega;
+  std::vector<double> time, value;
+  for (int i = 0; i <= n_samples; ++i) {
+    time.push_back(period * (1 + (setting.periods - 1) * i / n_samples));
+    value.push_back(wave.amplitude(time.back()));
+  }
+  return fit_damped_cosine(time, value, mode);
+}
+
 Oscillation oscillate(const parallel::Communicator& communicator, const OscillationSetting& setting) {
   const int n = setting.mode, cells = setting.cells_per_radius;
   const Units units = units_of_viscosity(setting.viscosity);
@@ -68,7 +83,7 @@ Oscillation oscillate(const parallel::Communicator& communicator, const Oscillat
     }
     return true;
   });
-  std::size_t first = 0;  // a period on, the layer around the film has formed
+  std::size_t first = 0;
   while (time[first] < period) ++first;
   result.fit = fit_damped_cosine(std::span(time).subspan(first), std::span(value).subspan(first), exact);
   result.growth = growth_of(time, energy, period);
