@@ -74,12 +74,12 @@ int project_vertices(const parallel::Communicator& ranks, const PhasePotentials&
   std::vector<Vec3> point(films.position.begin() + first, films.position.begin() + end);
   int n_refused = 0;
   for (int v = first; v < end; ++v) {
-    const auto projected = topology.vertex_kind[v] == mesh::VertexKind::Junction
-                               ? project_junction(potentials, films, topology, v)
-                               : potentials.project(films.position[v], topology.vertex_phases[v]);
+    const bool is_junction = topology.vertex_kind[v] == mesh::VertexKind::Junction;
+    const auto projected = is_junction ? project_junction(potentials, films, topology, v)
+                                       : potentials.project(films.position[v], topology.vertex_phases[v]);
     if (projected)
       point[v - first] = *projected;
-    else
+    else if (!is_junction)
       ++n_refused;
   }
   std::copy(point.begin(), point.end(), films.position.begin() + first);

@@ -28,9 +28,7 @@ struct ReconstructParameters {
 
 /// What a reconstruction did, for the log and for events.
 struct ReconstructReport {
-  int n_refused_projections = 0;  ///< vertices that stayed where the contour has them: Newton's method would
-                                  ///< move them too far, or they are junctions that the smooth potentials do
-                                  ///< not have (0 when healthy; a few amid T1s)
+  int n_refused_projections = 0;  ///< on films and borders: Newton moves too long to believe (0 when healthy)
   int n_nonconforming_edges = 0;  ///< of the new mesh
   mesh::RemeshReport remesh;
   double largest_volume_displacement = 0;  ///< [m]
