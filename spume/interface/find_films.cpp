@@ -1,10 +1,12 @@
 #include "spume/interface/find_films.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "spume/base/random.hpp"
 #include "spume/interface/contour.hpp"
+#include "spume/interface/project_junction.hpp"
 
 namespace spume::interface {
 
@@ -67,23 +69,31 @@ FoundFilms find_films(const parallel::Communicator& ranks, PhasePotentials& pote
 int project_vertices(const parallel::Communicator& ranks, const PhasePotentials& potentials,
                      const mesh::Topology& topology, mesh::FilmMesh& films) {
   const std::vector<int> share = ranks.shares(films.n_vertices());
+  const int first = share[ranks.rank()], end = share[ranks.rank() + 1];
+  // Junctions look at vertices around them, which must still be where they were on every rank.
+  std::vector<Vec3> point(films.position.begin() + first, films.position.begin() + end);
   int n_refused = 0;
-  for (int v = share[ranks.rank()]; v < share[ranks.rank() + 1]; ++v) {
-    const auto projected = potentials.project(films.position[v], topology.vertex_phases[v]);
+  for (int v = first; v < end; ++v) {
+    const bool is_junction = topology.vertex_kind[v] == mesh::VertexKind::Junction;
+    const auto projected = is_junction ? project_junction(potentials, films, topology, v)
+                                       : potentials.project(films.position[v], topology.vertex_phases[v]);
     if (projected)
-      films.position[v] = *projected;
-    else
+      point[v - first] = *projected;
+    else if (!is_junction)
       ++n_refused;
   }
+  std::copy(point.begin(), point.end(), films.position.begin() + first);
   ranks.all_gather(std::span(films.position), share);
   return static_cast<int>(ranks.sum(n_refused));
 }
 
 void project_junctions(const PhasePotentials& potentials, const mesh::Topology& topology,
                        mesh::FilmMesh& films) {
+  std::vector<Vec3> point;
+  point.reserve(topology.junction.size());
   for (int v : topology.junction)
-    films.position[v] =
-        potentials.project(films.position[v], topology.vertex_phases[v]).value_or(films.position[v]);
+    point.push_back(project_junction(potentials, films, topology, v).value_or(films.position[v]));
+  for (std::size_t n = 0; n < point.size(); ++n) films.position[topology.junction[n]] = point[n];
 }
 
 }  // namespace spume::interface

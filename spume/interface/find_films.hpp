@@ -24,8 +24,9 @@ FoundFilms find_films(const parallel::Communicator& ranks, PhasePotentials& pote
                       std::vector<mesh::Phase> winners, state::Phases& phases, double smallest_volume,
                       std::vector<PhaseChange>& changes);
 
-/// Puts the vertices onto the tie of their phases by Newton's method; gives the number that stayed where they
-/// were. Each rank does its share of them. Collective.
+/// Puts the vertices onto the tie of their phases by Newton's method, junctions by project_junction(); gives
+/// the number of those on films and borders that stayed where they were: that junctions do is part of a T1.
+/// Each rank does its share of them. Collective.
 int project_vertices(const parallel::Communicator& ranks, const PhasePotentials& potentials,
                      const mesh::Topology& topology, mesh::FilmMesh& films);
 

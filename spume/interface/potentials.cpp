@@ -169,7 +169,7 @@ std::optional<Vec3> PhasePotentials::project_on_border(const Vec3& start,
 std::optional<Vec3> PhasePotentials::project_on_junction(const Vec3& start,
                                                          const PhaseField* const* field) const {
   constexpr int n_iterations = 8;
-  constexpr double reach = 1.2, smallest_volume = 0.05, converged = 1e-10;
+  constexpr double reach = 0.5, smallest_volume = 0.05, converged = 1e-10;
   Vec3 x = start;
   for (int n = 0; n < n_iterations; ++n) {
     std::array<Vec3, 3> g;
@@ -185,6 +185,18 @@ std::optional<Vec3> PhasePotentials::project_on_junction(const Vec3& start,
     if (norm(move) < converged * h()) break;
   }
   return x;
+}
+
+int PhasePotentials::handedness(const Vec3& x, const mesh::PhaseSet& phases) const {
+  std::array<Vec3, 3> g;
+  const PhaseField* first = find(phases[0]);
+  for (int m = 0; m < 3; ++m) {
+    const PhaseField* other = find(phases[m + 1]);
+    if (!first || !other) return 0;
+    difference(*first, *other, x, g[m]);
+  }
+  const double volume = dot(g[0], cross(g[1], g[2]));
+  return (volume > 0) - (volume < 0);
 }
 
 PhasePotentials potentials_of(const grid::Box& box, std::span<const CellBox> cells,

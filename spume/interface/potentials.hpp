@@ -59,8 +59,13 @@ class PhasePotentials {
 
   /// Newton's method from x onto ψ_i = ψ_j of the given phases: along the gradient for two phases (film), by
   /// the shortest way for three (border), to the point for four or more (junction; the first four decide).
-  /// Nothing where gradients are degenerate or the move would be longer than 0.5, 0.8 or 1.2 h.
+  /// Nothing where gradients are degenerate or the move would be longer than 0.5, 0.8 or 0.5 h.
   std::optional<Vec3> project(const Vec3& x, const mesh::PhaseSet& phases) const;
+  /// The sign of det(∇ψ_a − ∇ψ_b, ∇ψ_a − ∇ψ_c, ∇ψ_a − ∇ψ_d) at a point, of the first four phases a < b < c <
+  /// d; 0 where one of them has no field. Where the four are equal it is 1 if a, b, c follow each other by
+  /// the right-hand rule about the border that they share, seen along it away from the point, and −1 if they
+  /// do so in the other order.
+  int handedness(const Vec3& x, const mesh::PhaseSet& phases) const;
 
  private:
   std::optional<Vec3> project_on_film(const Vec3& start, const PhaseField* const* field) const;

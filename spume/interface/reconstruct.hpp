@@ -28,7 +28,7 @@ struct ReconstructParameters {
 
 /// What a reconstruction did, for the log and for events.
 struct ReconstructReport {
-  int n_refused_projections = 0;  ///< Newton moves too long to believe (0 when healthy)
+  int n_refused_projections = 0;  ///< on films and borders: Newton moves too long to believe (0 when healthy)
   int n_nonconforming_edges = 0;  ///< of the new mesh
   mesh::RemeshReport remesh;
   double largest_volume_displacement = 0;  ///< [m]
