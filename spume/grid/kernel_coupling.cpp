@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <sstream>
 
 #include "spume/base/contract.hpp"
@@ -96,6 +97,40 @@ struct RowWeights {
   double sign(int m) const { return odd ? stencil->mirror[m] : 1.0; }
 };
 
+/// Where a point lies in units of cells.
+Vec3 position_of(const Vec3& point, const Grid& grid) {
+  const Vec3 position = (point - grid.box().lower) / grid.h();
+  // Also false for NaN. Farther points would not fit an int.
+  if (!(std::abs(position.x) < 1e9 && std::abs(position.y) < 1e9 && std::abs(position.z) < 1e9))
+    throw_lost(point);
+  return position;
+}
+
+/// Who owns the values under the kernels of a point.
+class Owners {
+ public:
+  static constexpr int several = -1;
+
+  explicit Owners(const Grid& grid) : grid_(grid), of_layer_(grid.cells().k, several) {
+    const int n_around = reach / 2;  // layers to both sides of that of the point
+    for (int k = n_around; k + n_around < grid.cells().k; ++k)
+      if (const int owner = grid.owner_of_layer(k - n_around); owner == grid.owner_of_layer(k + n_around))
+        of_layer_[k] = owner;
+  }
+
+  /// The rank that owns all of them; `several` also where the kernels may reach beyond the ends of the box
+  /// along z. All ranks answer alike.
+  int of(const Vec3& point) const {
+    if (grid_.communicator().size() == 1) return 0;
+    const double z = position_of(point, grid_).z;
+    return z >= 0 && z < grid_.cells().k ? of_layer_[static_cast<std::size_t>(z)] : several;
+  }
+
+ private:
+  const Grid& grid_;
+  std::vector<int> of_layer_;  ///< of cells that points are in
+};
+
 /// The kernels of a point for the three components of a vector field, and the part of them that a rank owns.
 class Kernel {
  public:
@@ -103,10 +138,7 @@ class Kernel {
 
   /// Takes a point; false where this rank owns nothing of its kernels.
   bool move_to(const Vec3& point) {
-    const Vec3 position = (point - grid_->box().lower) / grid_->h();
-    // Also false for NaN. Farther points would not fit an int.
-    if (!(std::abs(position.x) < 1e9 && std::abs(position.y) < 1e9 && std::abs(position.z) < 1e9))
-      throw_lost(point);
+    const Vec3 position = position_of(point, *grid_);
     const bool on_faces = placement_ == Placement::Faces;
     set(position, 2, Line::Centres);
     if (on_faces) set(position, 2, Line::Faces);
@@ -116,12 +148,6 @@ class Kernel {
       if (on_faces) set(position, axis, Line::Faces);
     }
     return true;
-  }
-
-  /// Whether parts of the kernels belong to different ranks; all ranks answer alike.
-  bool is_shared() const {
-    return has_several_owners(centres_[2]) ||
-           (placement_ == Placement::Faces && has_several_owners(faces_[2]));
   }
 
   /// Calls layer(m, rows) for the layers of a component's kernel that this rank owns: the factors of a row
@@ -152,11 +178,6 @@ class Kernel {
     for (int m = 0; m < reach; ++m)
       if (z.cell[m] >= grid_->z_begin() && z.cell[m] < grid_->z_end()) return true;
     return false;
-  }
-  bool has_several_owners(const Stencil& z) const {
-    const int owner = grid_->owner_of_layer(z.cell[0]);
-    return std::any_of(z.cell.begin() + 1, z.cell.end(),
-                       [&](int k) { return grid_->owner_of_layer(k) != owner; });
   }
   const Stencil& along(int component, int axis) const {
     return placement_ == Placement::Faces && axis == component ? faces_[axis] : centres_[axis];
@@ -205,6 +226,8 @@ double sum_of_rows(std::span<const Row> rows, const RowWeights& x, const double*
   return sum;
 }
 
+using Sums = std::array<double, 3>;  // of the components
+
 }  // namespace
 
 void KernelCoupling::spread(std::span<const Vec3> points, std::span<const Vec3> forces,
@@ -226,35 +249,50 @@ void KernelCoupling::spread(std::span<const Vec3> points, std::span<const Vec3> 
 void KernelCoupling::sample(const VectorField& u, std::span<const Vec3> points,
                             std::vector<Vec3>& velocities) const {
   const Grid& grid = u[0].grid();
+  const parallel::Communicator& ranks = grid.communicator();
+  const Owners owners(grid);
+  std::vector<int> owner(points.size()), first_of(ranks.size() + 1, 0);
+  int n_shared = 0;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    owner[p] = owners.of(points[p]);
+    ++(owner[p] == Owners::several ? n_shared : first_of[owner[p] + 1]);
+  }
+  std::partial_sum(first_of.begin(), first_of.end(), first_of.begin());
+
+  // The points of one rank have one sum a component. Those of several have one a layer, which has one owner,
+  // so that the sum over ranks is exact; layers are then added in one order, whatever the number of ranks.
+  std::vector<Sums> sum(first_of.back(), Sums{});
+  std::vector<double> layer_sum(static_cast<std::size_t>(n_shared) * reach * 3, 0.0);
+  Sums* alone = sum.data() + first_of[ranks.rank()];
+  double* shared = layer_sum.data();
   Kernel kernel(grid, *this);
   RowWeights x;
-  // A point whose kernels are of one rank has three sums, of which the other ranks hold none. Of the others
-  // each layer has one owner, so that the sum over ranks is exact there as well; layers are then added in one
-  // order, whatever the number of ranks.
-  std::vector<double> sums(points.size() * 3, 0.0);
-  std::vector<std::size_t> shared;
   for (std::size_t p = 0; p < points.size(); ++p) {
-    const bool owns_some = kernel.move_to(points[p]);
-    const bool is_shared = kernel.is_shared();
-    const std::size_t first = is_shared ? sums.size() : p * 3;
-    if (is_shared) {
-      shared.push_back(p);
-      sums.resize(sums.size() + reach * 3, 0.0);
-    }
-    if (!owns_some) continue;
+    const bool is_shared = owner[p] == Owners::several;
+    if (!is_shared && owner[p] != ranks.rank()) continue;
+    double* const to = is_shared ? shared : (alone++)->data();
+    if (is_shared) shared += reach * 3;
+    if (!kernel.move_to(points[p])) continue;
     for (int c = 0; c < 3; ++c)
       kernel.for_owned_layers(c, u[c].symmetry(), x, [&](int m, std::span<const Row> rows) {
-        sums[first + (is_shared ? m * 3 : 0) + c] += sum_of_rows(rows, x, u[c].values().data());
+        to[(is_shared ? m * 3 : 0) + c] += sum_of_rows(rows, x, u[c].values().data());
       });
   }
-  grid.communicator().sum(sums);
-  velocities.resize(points.size());
-  for (std::size_t p = 0; p < points.size(); ++p)
-    velocities[p] = {sums[p * 3], sums[p * 3 + 1], sums[p * 3 + 2]};
-  const double* of_layer = sums.data() + points.size() * 3;
-  for (const std::size_t p : shared)
+  ranks.all_gather(std::span(sum), first_of);
+  ranks.sum(layer_sum);
+
+  velocities.assign(points.size(), Vec3{});
+  shared = layer_sum.data();
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    Vec3& velocity = velocities[p];
+    if (owner[p] != Owners::several) {
+      const auto& [u_x, u_y, u_z] = sum[first_of[owner[p]]++];
+      velocity = {u_x, u_y, u_z};
+      continue;
+    }
     for (int m = 0; m < reach; ++m)
-      for (int c = 0; c < 3; ++c) velocities[p][c] += *of_layer++;
+      for (int c = 0; c < 3; ++c) velocity[c] += *shared++;
+  }
 }
 
 }  // namespace spume::grid
