@@ -51,8 +51,9 @@ FoundFilms find_films(const parallel::Communicator& ranks, PhasePotentials& pote
     found.films = contour(ranks, potentials, winners);
     found.topology = mesh::build_topology(found.films);
     if (retry == max_retries) break;
-    const int n_specks = suppress_specks(potentials, winners, found.films, found.topology, smallest_volume);
-    const TornBubbles torn = torn_bubbles(potentials.h(), found.films, found.topology, smallest_volume);
+    const std::vector<ClosedSurface> surfaces = closed_surfaces(found.films, found.topology);
+    const int n_specks = suppress_specks(potentials, winners, surfaces, smallest_volume);
+    const TornBubbles torn = torn_bubbles(potentials.h(), surfaces, smallest_volume);
     const bool separated =
         !torn.phase.empty() && separate_pieces(potentials, winners, phases, smallest_volume, changes, torn);
     if (n_specks == 0 && !separated && found.topology.n_nonconforming_edges == 0) break;

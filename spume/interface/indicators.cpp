@@ -208,6 +208,28 @@ class TriangleSpread {
   std::vector<Eight> value_;
 };
 
+/// The rank that computes each phase, or −1 where it has no cells: neighbours along z together, since a film
+/// between bubbles of two ranks is spread by both, and rooms of as many cells for each rank.
+std::vector<int> owners(const PhaseBlocks& blocks, int n_ranks) {
+  std::vector<std::size_t> phases;
+  double all = 0;
+  for (std::size_t p = 0; p < blocks.cells.size(); ++p)
+    if (!blocks.cells[p].empty()) {
+      phases.push_back(p);
+      all += static_cast<double>(blocks.room[p].size());
+    }
+  const auto doubled_height = [&](std::size_t p) { return blocks.cells[p].begin.k + blocks.cells[p].end.k; };
+  std::ranges::stable_sort(phases, {}, doubled_height);
+  std::vector<int> owner(blocks.cells.size(), -1);
+  double before = 0;
+  for (const std::size_t p : phases) {
+    const auto size = static_cast<double>(blocks.room[p].size());
+    owner[p] = std::min(n_ranks - 1, static_cast<int>(n_ranks * (before + 0.5 * size) / all));
+    before += size;
+  }
+  return owner;
+}
+
 /// The fields of the bubbles that this rank computes, on their rooms.
 struct OwnFields {
   std::vector<std::optional<grid::Field>> divergence;  ///< by phase
@@ -372,14 +394,11 @@ std::vector<std::vector<double>> smoothed_indicators(const grid::Grid& grid, con
   expects(midpoints.size() == films.triangle.size(), "one set of midpoints a triangle");
   const parallel::Communicator& ranks = grid.communicator();
   const std::size_t n_phases = blocks.cells.size();
-  std::vector<int> owner(n_phases, -1);
+  const std::vector<int> owner = owners(blocks, ranks.size());
   Rooms rooms(grid.box(), variance);
   OwnFields own{std::vector<std::optional<grid::Field>>(n_phases), {}};
-  for (std::size_t p = 0, n = 0; p < n_phases; ++p) {
-    if (blocks.cells[p].empty()) continue;
-    owner[p] = static_cast<int>(n++ % ranks.size());
+  for (std::size_t p = 0; p < n_phases; ++p)
     if (owner[p] == ranks.rank()) own.divergence[p].emplace(rooms.of(blocks.room[p]).grid);
-  }
   spread_films(grid, films, midpoints, blocks, own);
 
   std::vector<std::vector<double>> indicators(n_phases);

@@ -18,13 +18,15 @@ constexpr int reach = 6;  // of a piece, in cells
 std::vector<CellRun> find_runs(const Index3& cells, const std::vector<mesh::Phase>& winner,
                                std::vector<int>& first_of_row) {
   std::vector<CellRun> runs;
-  std::size_t cell = 0;
+  const mesh::Phase* row = winner.data();
   for (int k = 0; k < cells.k; ++k)
-    for (int j = 0; j < cells.j; ++j) {
+    for (int j = 0; j < cells.j; ++j, row += cells.i) {
       first_of_row.push_back(static_cast<int>(runs.size()));
-      for (int i = 0; i < cells.i; ++i, ++cell) {
-        if (i == 0 || winner[cell] != runs.back().phase) runs.push_back({i, i, j, k, winner[cell], -1});
-        runs.back().i_end = i + 1;
+      for (int i = 0; i < cells.i;) {
+        const mesh::Phase phase = row[i];
+        const int begin = i;
+        while (i < cells.i && row[i] == phase) ++i;
+        runs.push_back({begin, i, j, k, phase, -1});
       }
     }
   first_of_row.push_back(static_cast<int>(runs.size()));
@@ -116,15 +118,6 @@ PhaseField cut_out(PhaseField& parent, const CellBox& window, const std::vector<
   return field;
 }
 
-/// A closed surface of one phase: lamellae linked by vertices that they share, all by the images nearest to
-/// one of them. What goes around half a periodic box or more is not measured: its volume is infinite.
-struct ClosedSurface {
-  mesh::Phase phase;
-  double volume = 0;  ///< enclosed; negative around a cavity [m³]
-  Vec3 lower, upper;  ///< bounding box
-  Vec3 start;
-};
-
 void mark_large(const Domain& domain, std::vector<ClosedSurface>& surfaces) {
   constexpr double large = 0.4;
   for (ClosedSurface& s : surfaces)
@@ -149,41 +142,6 @@ int number_surfaces(const mesh::FilmMesh& films, const mesh::Topology& topology,
     }
   }
   return classes.number(surface_of_side);
-}
-
-/// The surfaces of the outside, and of the phases that have several: the only ones of a phase are no specks.
-std::vector<ClosedSurface> closed_surfaces(const mesh::FilmMesh& films, const mesh::Topology& topology) {
-  std::vector<int> surface_of_side;
-  std::vector<ClosedSurface> surfaces(number_surfaces(films, topology, surface_of_side), {-1, 0, {}, {}, {}});
-  std::vector<mesh::Phase> phase(surfaces.size());
-  for (int l = 0; l < topology.n_lamellae(); ++l) {
-    phase[surface_of_side[2 * l]] = topology.lamella[l].phase_a;
-    phase[surface_of_side[2 * l + 1]] = topology.lamella[l].phase_b;
-  }
-  std::map<mesh::Phase, int> n_surfaces;
-  for (mesh::Phase p : phase) ++n_surfaces[p];
-  std::vector<char> measured;
-  for (mesh::Phase p : phase) measured.push_back(p == 0 || n_surfaces[p] > 1);
-
-  for (int side = 0; side < 2 * films.n_triangles(); ++side) {
-    const int surface = surface_of_side[2 * topology.triangle_lamella[side / 2] + side % 2];
-    if (!measured[surface]) continue;
-    ClosedSurface& s = surfaces[surface];
-    const auto corner = films.corners(side / 2);
-    if (s.phase < 0) s = {phase[surface], 0, corner[0], corner[0], corner[0]};
-    const Vec3 shift = films.domain.near(corner[0], s.start) - corner[0];
-    const Vec3 a = corner[0] + shift - s.start, b = corner[1] + shift - s.start,
-               c = corner[2] + shift - s.start;
-    s.volume += (side % 2 ? -1 : 1) * dot(a, cross(b, c)) / 6;
-    for (const Vec3& x : corner)
-      for (int d = 0; d < 3; ++d) {
-        s.lower[d] = std::min(s.lower[d], x[d] + shift[d]);
-        s.upper[d] = std::max(s.upper[d], x[d] + shift[d]);
-      }
-  }
-  std::erase_if(surfaces, [](const ClosedSurface& s) { return s.phase < 0; });
-  mark_large(films.domain, surfaces);
-  return surfaces;
 }
 
 /// Calls visit(n, m, by_face) for runs n and m of one phase that are linked, by faces of cells or only across
@@ -329,10 +287,43 @@ void settle_new_phases(const mesh::FilmMesh& films, const mesh::Topology& topolo
   }
 }
 
-TornBubbles torn_bubbles(double h, const mesh::FilmMesh& films, const mesh::Topology& topology,
-                         double smallest_volume) {
+std::vector<ClosedSurface> closed_surfaces(const mesh::FilmMesh& films, const mesh::Topology& topology) {
+  std::vector<int> surface_of_side;
+  std::vector<ClosedSurface> surfaces(number_surfaces(films, topology, surface_of_side), {-1, 0, {}, {}, {}});
+  std::vector<mesh::Phase> phase(surfaces.size());
+  for (int l = 0; l < topology.n_lamellae(); ++l) {
+    phase[surface_of_side[2 * l]] = topology.lamella[l].phase_a;
+    phase[surface_of_side[2 * l + 1]] = topology.lamella[l].phase_b;
+  }
   std::map<mesh::Phase, int> n_surfaces;
-  for (const ClosedSurface& s : closed_surfaces(films, topology))
+  for (mesh::Phase p : phase) ++n_surfaces[p];
+  std::vector<char> measured;
+  for (mesh::Phase p : phase) measured.push_back(p == 0 || n_surfaces[p] > 1);
+
+  for (int side = 0; side < 2 * films.n_triangles(); ++side) {
+    const int surface = surface_of_side[2 * topology.triangle_lamella[side / 2] + side % 2];
+    if (!measured[surface]) continue;
+    ClosedSurface& s = surfaces[surface];
+    const auto corner = films.corners(side / 2);
+    if (s.phase < 0) s = {phase[surface], 0, corner[0], corner[0], corner[0]};
+    const Vec3 shift = films.domain.near(corner[0], s.start) - corner[0];
+    const Vec3 a = corner[0] + shift - s.start, b = corner[1] + shift - s.start,
+               c = corner[2] + shift - s.start;
+    s.volume += (side % 2 ? -1 : 1) * dot(a, cross(b, c)) / 6;
+    for (const Vec3& x : corner)
+      for (int d = 0; d < 3; ++d) {
+        s.lower[d] = std::min(s.lower[d], x[d] + shift[d]);
+        s.upper[d] = std::max(s.upper[d], x[d] + shift[d]);
+      }
+  }
+  std::erase_if(surfaces, [](const ClosedSurface& s) { return s.phase < 0; });
+  mark_large(films.domain, surfaces);
+  return surfaces;
+}
+
+TornBubbles torn_bubbles(double h, const std::vector<ClosedSurface>& surfaces, double smallest_volume) {
+  std::map<mesh::Phase, int> n_surfaces;
+  for (const ClosedSurface& s : surfaces)
     if (s.phase != 0 && s.volume >= smallest_volume) ++n_surfaces[s.phase];
   TornBubbles torn{{}, static_cast<std::size_t>(std::ceil(smallest_volume / (h * h * h)))};
   for (const auto& [phase, n] : n_surfaces)
@@ -341,9 +332,8 @@ TornBubbles torn_bubbles(double h, const mesh::FilmMesh& films, const mesh::Topo
 }
 
 int suppress_specks(PhasePotentials& potentials, const std::vector<mesh::Phase>& winner,
-                    const mesh::FilmMesh& films, const mesh::Topology& topology, double smallest_volume) {
+                    const std::vector<ClosedSurface>& surfaces, double smallest_volume) {
   const double h = potentials.h();
-  const std::vector<ClosedSurface> surfaces = closed_surfaces(films, topology);
   std::map<mesh::Phase, double> largest;
   for (const auto& s : surfaces)
     if (s.phase != 0) largest[s.phase] = std::max(largest[s.phase], s.volume);

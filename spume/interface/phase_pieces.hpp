@@ -46,9 +46,20 @@ struct TornBubbles {
 PhasePieces find_pieces(const Lattice& lattice, const std::vector<mesh::Phase>& winner,
                         const TornBubbles& torn = {});
 
+/// A closed surface of one phase: lamellae linked by vertices that they share, all by the images nearest to
+/// one of them. What goes around half a periodic box or more is not measured: its volume is infinite.
+struct ClosedSurface {
+  mesh::Phase phase;
+  double volume = 0;  ///< enclosed; negative around a cavity [m³]
+  Vec3 lower, upper;  ///< bounding box [m]
+  Vec3 start;         ///< a point of it [m]
+};
+/// The surfaces of the outside, and of the phases that have several: a bubble with one is neither torn nor
+/// has specks.
+std::vector<ClosedSurface> closed_surfaces(const mesh::FilmMesh& films, const mesh::Topology& topology);
+
 /// The bubbles whose films enclose `smallest_volume` [m³] or more in several closed surfaces.
-TornBubbles torn_bubbles(double h, const mesh::FilmMesh& films, const mesh::Topology& topology,
-                         double smallest_volume);
+TornBubbles torn_bubbles(double h, const std::vector<ClosedSurface>& surfaces, double smallest_volume);
 
 /// Makes every phase one piece. The largest piece keeps the phase. Another one becomes a new phase when its
 /// cells fill at least `smallest_volume` [m³]: a Split of a bubble or a Pocket of the outside, appended to
@@ -66,11 +77,11 @@ bool separate_pieces(PhasePotentials& potentials, const std::vector<mesh::Phase>
 void settle_new_phases(const mesh::FilmMesh& films, const mesh::Topology& topology, state::Phases& phases,
                        std::vector<PhaseChange>& changes, std::size_t first);
 
-/// The contour may leave specks of a phase that hold no cell centre. Lowers the phase around every closed
-/// surface of a phase beyond its largest one (of the outside: around every closed surface) that encloses less
-/// than `smallest_volume` [m³], where the phase does not win; gives their number. Contour again if it is not
-/// 0.
+/// The contour may leave specks of a phase that hold no cell centre. Of the contour's `surfaces`, lowers the
+/// phase around every one of a phase beyond its largest one (of the outside: around every closed surface)
+/// that encloses less than `smallest_volume` [m³], where the phase does not win; gives their number. Contour
+/// again if it is not 0.
 int suppress_specks(PhasePotentials& potentials, const std::vector<mesh::Phase>& winner,
-                    const mesh::FilmMesh& films, const mesh::Topology& topology, double smallest_volume);
+                    const std::vector<ClosedSurface>& surfaces, double smallest_volume);
 
 }  // namespace spume::interface

@@ -110,8 +110,6 @@ RemeshReport remesh(FilmMesh& mesh, const TargetLength& target, const Projection
     std::vector<int> of_rank;
     for (const RemeshReport& of_one : ranks.joined(std::vector{own}, of_rank)) add(of_one, report);
   }
-  report.n_left_short =
-      static_cast<int>(edges_below(mesh, targets_at_vertices(mesh, target), parameters.tiny).size());
   return report;
 }
 

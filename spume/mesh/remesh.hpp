@@ -38,8 +38,7 @@ struct RemeshParameters {
 };
 struct RemeshReport {
   int n_collapsed = 0, n_split = 0, n_flipped = 0;
-  int n_merged = 0;      ///< vertices drawn together with others: see merge.hpp
-  int n_left_short = 0;  ///< edges below `tiny` × target that could not be collapsed
+  int n_merged = 0;  ///< vertices drawn together with others: see merge.hpp
 
   /// Whether the triangles are others than before.
   bool changed() const { return n_collapsed + n_split + n_flipped + n_merged > 0; }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <span>
 
 #include "spume/base/union_find.hpp"
@@ -211,23 +210,25 @@ std::vector<int> walk(const Topology& topology, const std::vector<std::vector<in
 
 /// Border dofs are the pairs (vertex, three phases); borders their connected classes.
 void find_borders(const FilmMesh& mesh, Topology& topology) {
-  std::map<std::pair<int, PhaseSet>, int> dof_of;
-  for (const auto& edge : topology.border_edge)
-    for (int v : edge.vertex) dof_of.emplace(std::pair(v, phases_of(mesh, edge.triangle)), 0);
-  int n = 0;
-  std::vector<PhaseSet> phases_of_dof;
-  for (auto& [key, dof] : dof_of) {
-    dof = n++;
-    topology.border_dof.push_back({key.first, -1});
-    phases_of_dof.push_back(key.second);
+  using Key = std::array<int, 4>;  // vertex, phases
+  std::vector<Key> key_of_end;     // [2 edge + end]
+  key_of_end.reserve(2 * topology.border_edge.size());
+  for (const auto& edge : topology.border_edge) {
+    const PhaseSet phases = phases_of(mesh, edge.triangle);
+    for (int v : edge.vertex) key_of_end.push_back({v, phases[0], phases[1], phases[2]});
   }
+  std::vector<Key> keys = key_of_end;
+  std::ranges::sort(keys);
+  keys.erase(std::ranges::unique(keys).begin(), keys.end());
+  const int n = static_cast<int>(keys.size());
+  for (const Key& key : keys) topology.border_dof.push_back({key[0], -1});
   UnionFind classes(n);
   std::vector<std::vector<int>> edges_of_dof(n);
   for (int e = 0; e < static_cast<int>(topology.border_edge.size()); ++e) {
     auto& edge = topology.border_edge[e];
-    const PhaseSet phases = phases_of(mesh, edge.triangle);
     for (int end = 0; end < 2; ++end) {
-      edge.border_dof[end] = dof_of.at({edge.vertex[end], phases});
+      edge.border_dof[end] =
+          static_cast<int>(std::ranges::lower_bound(keys, key_of_end[2 * e + end]) - keys.begin());
       edges_of_dof[edge.border_dof[end]].push_back(e);
     }
     classes.join(edge.border_dof[0], edge.border_dof[1]);
@@ -241,8 +242,7 @@ void find_borders(const FilmMesh& mesh, Topology& topology) {
   for (int d = 0; d < n; ++d) {
     const int b = border_of_dof[d];
     topology.border_dof[d].border = b;
-    const PhaseSet& phases = phases_of_dof[d];
-    topology.border[b].phases = {phases[0], phases[1], phases[2]};
+    topology.border[b].phases = {keys[d][1], keys[d][2], keys[d][3]};
     const bool is_end = edges_of_dof[d].size() == 1;
     if (start[b] < 0 || (is_end && !has_end[b])) start[b] = d;
     has_end[b] = has_end[b] || is_end;

@@ -145,9 +145,13 @@ TEST(SuppressSpecks, RemovesABitOfAPhaseBetweenLatticePoints) {
   auto potentials = testing::sampled(testing::cube_box(24), foam, 3);
   const auto winners = find_winners(potentials);
   const auto films = contour(parallel::Communicator::self(), potentials, winners);
-  EXPECT_EQ(suppress_specks(potentials, winners, films, mesh::build_topology(films), smallest_volume), 1);
+  EXPECT_EQ(suppress_specks(potentials, winners, closed_surfaces(films, mesh::build_topology(films)),
+                            smallest_volume),
+            1);
   const auto clean = contour(parallel::Communicator::self(), potentials, find_winners(potentials));
-  EXPECT_EQ(suppress_specks(potentials, winners, clean, mesh::build_topology(clean), smallest_volume), 0);
+  EXPECT_EQ(suppress_specks(potentials, winners, closed_surfaces(clean, mesh::build_topology(clean)),
+                            smallest_volume),
+            0);
 }
 
 }  // namespace
