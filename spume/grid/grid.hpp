@@ -15,8 +15,9 @@ namespace spume::grid {
 /// k+½) h. Fields keep a reference to their grid, so a grid neither moves nor is copied.
 class Grid {
  public:
-  /// Collective. Throws InputError when a direction has fewer than 4 cells, or when a slab would be thinner
-  /// than 4 cells (too many ranks), naming the largest smaller number of ranks that works.
+  /// Collective, as the end of the object is. Throws InputError when a direction has fewer than 4 cells, or
+  /// when a slab would be thinner than 4 cells (too many ranks), naming the largest smaller number of ranks
+  /// that works.
   Grid(const parallel::Communicator& communicator, const Box& box);
   ~Grid();
   Grid(const Grid&) = delete;

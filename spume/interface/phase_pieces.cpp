@@ -144,8 +144,8 @@ int number_surfaces(const mesh::FilmMesh& films, const mesh::Topology& topology,
   return classes.number(surface_of_side);
 }
 
-/// Calls visit(n, m, by_face) for runs n and m of one phase that are linked, by faces of cells or only across
-/// edges and corners.
+/// Calls visit(n, m, is_sure) for runs n and m of one phase that are linked; not sure are links through
+/// corners of cells alone, along the diagonals of cubes.
 template <class Visit>
 void for_each_link(const Lattice& lattice, const std::vector<CellRun>& runs,
                    const std::vector<int>& first_of_row, Visit&& visit) {
@@ -165,7 +165,7 @@ void for_each_link(const Lattice& lattice, const std::vector<CellRun>& runs,
         if (runs[m].phase != run.phase) continue;
         const bool overlap = runs[m].i_begin < run.i_end && runs[m].i_end > run.i_begin;
         const bool meet = overlap || runs[m].i_begin == run.i_end || (goes_over && runs[m].i_begin == 0);
-        if (meet) visit(n, m, overlap && dj + dk == 1);
+        if (meet) visit(n, m, overlap || dj + dk == 1);
       }
     }
   }
@@ -198,8 +198,8 @@ PhasePieces find_pieces(const Lattice& lattice, const std::vector<mesh::Phase>& 
   const auto is_torn = [&](mesh::Phase p) {
     return std::find(torn.phase.begin(), torn.phase.end(), p) != torn.phase.end();
   };
-  for_each_link(lattice, runs, first_of_row, [&](int n, int m, bool by_face) {
-    if (by_face || !is_torn(runs[n].phase)) classes.join(n, m);
+  for_each_link(lattice, runs, first_of_row, [&](int n, int m, bool is_sure) {
+    if (is_sure || !is_torn(runs[n].phase)) classes.join(n, m);
   });
   if (!torn.phase.empty()) keep_crumbs(lattice, runs, first_of_row, torn.least_cells, classes);
   std::vector<int> piece_of_run;
@@ -322,12 +322,17 @@ std::vector<ClosedSurface> closed_surfaces(const mesh::FilmMesh& films, const me
 }
 
 TornBubbles torn_bubbles(double h, const std::vector<ClosedSurface>& surfaces, double smallest_volume) {
-  std::map<mesh::Phase, int> n_surfaces;
-  for (const ClosedSurface& s : surfaces)
-    if (s.phase != 0 && s.volume >= smallest_volume) ++n_surfaces[s.phase];
+  // What was not measured may be another side of one bubble, as of a layer across a periodic box, but not of
+  // what a smaller surface encloses.
+  std::map<mesh::Phase, int> n_surfaces, n_measured;
+  for (const ClosedSurface& s : surfaces) {
+    if (s.phase == 0 || s.volume < smallest_volume) continue;
+    ++n_surfaces[s.phase];
+    if (std::isfinite(s.volume)) ++n_measured[s.phase];
+  }
   TornBubbles torn{{}, static_cast<std::size_t>(std::ceil(smallest_volume / (h * h * h)))};
-  for (const auto& [phase, n] : n_surfaces)
-    if (n > 1) torn.phase.push_back(phase);
+  for (const auto& [phase, n] : n_measured)
+    if (n_surfaces[phase] > 1) torn.phase.push_back(phase);
   return torn;
 }
 

@@ -14,8 +14,8 @@ using PhaseChange = ReconstructReport::PhaseChange;
 
 /// A connected set of cells of one phase. Cells are linked along the edges of the Kuhn tetrahedra (steps of 0
 /// or 1 along every axis, all of one sign): that is how the contour links them, because a phase that wins at
-/// both ends of an edge wins all along it. Only where the contour looks closer, at values
-/// between the cells, may it cut a link: see torn_bubbles().
+/// both ends of an edge wins all along it. Only in a cube of two phases, whose film is one piece, does it cut
+/// the link along the diagonal of the cube: see torn_bubbles().
 struct PhasePiece {
   mesh::Phase phase;
   CellBox cells;  ///< bounding box of its cells as they are numbered in the grid
@@ -40,9 +40,9 @@ struct TornBubbles {
   std::size_t least_cells = 0;  ///< of a piece
 };
 
-/// The pieces of all phases; `winner` as of find_winners(). Pieces continue across periodic faces. Of torn
-/// bubbles pieces hang together by faces of cells alone, and what is smaller than a piece stays with one that
-/// it is linked to.
+/// The pieces of all phases; `winner` as of find_winners(). Pieces continue across periodic faces. Links
+/// along the diagonals of cubes do not count for torn bubbles, but that what is smaller than a piece stays
+/// with one that it is linked to.
 PhasePieces find_pieces(const Lattice& lattice, const std::vector<mesh::Phase>& winner,
                         const TornBubbles& torn = {});
 
@@ -58,7 +58,9 @@ struct ClosedSurface {
 /// has specks.
 std::vector<ClosedSurface> closed_surfaces(const mesh::FilmMesh& films, const mesh::Topology& topology);
 
-/// The bubbles whose films enclose `smallest_volume` [m³] or more in several closed surfaces.
+/// The bubbles whose films enclose `smallest_volume` [m³] or more in several closed surfaces. Of surfaces
+/// around half a periodic box or more it is not known what they enclose: a bubble that has these alone is
+/// taken for whole.
 TornBubbles torn_bubbles(double h, const std::vector<ClosedSurface>& surfaces, double smallest_volume);
 
 /// Makes every phase one piece. The largest piece keeps the phase. Another one becomes a new phase when its

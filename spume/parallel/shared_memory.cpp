@@ -1,7 +1,9 @@
 #include "spume/parallel/shared_memory.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
+#include <memory>
 #include <system_error>
 
 namespace spume::parallel {
@@ -61,6 +63,9 @@ SharedMemory::SharedMemory(const Communicator& ranks, std::size_t n) : ranks_(ra
 }
 
 SharedMemory::~SharedMemory() {
+  // A rank that fails alone must come to where it ends the others, who do not come here and would be waited
+  // for. What is left is the system's when the program ends.
+  if (std::uncaught_exceptions() > 0) return;
   MPI_Win_unlock_all(window_);
   MPI_Win_free(&window_);
 }

@@ -15,7 +15,8 @@ class SharedMemory {
  public:
   /// n numbers, zero, for this rank, on 64 bytes; n may differ from rank to rank. Nothing where the ranks are
   /// spread over several machines, or where the machine keeps too little room for memory that programs share,
-  /// as some containers do. Collective, as the end of the object is.
+  /// as some containers do. Collective, as the end of the object is, unless an exception brings that about:
+  /// then the memory stays until the program ends.
   static std::unique_ptr<SharedMemory> among(const Communicator& ranks, std::size_t n);
   ~SharedMemory();
   SharedMemory(const SharedMemory&) = delete;

@@ -47,17 +47,17 @@ TEST(PhasePieces, AreLinkedAlongTheEdgesOfTheTetrahedra) {
 }
 
 // Two cubes of 27 cells that touch at a corner, and a cell on a face of the upper one.
-TEST(PhasePieces, OfATornBubbleHangTogetherByFacesAndKeepTheirCrumbs) {
+TEST(PhasePieces, OfATornBubbleAreNotLinkedThroughCornersAndKeepTheirCrumbs) {
   const Index3 cells{8, 8, 8};
   std::vector<mesh::Phase> winner(8 * 8 * 8, 0);
-  const auto set = [&](int i, int j, int k) { winner[(k * 8 + j) * 8 + i] = 1; };
+  const auto set = [&](int i, int j, int k, mesh::Phase p) { winner[(k * 8 + j) * 8 + i] = p; };
   for (int k = 0; k < 3; ++k)
     for (int j = 0; j < 3; ++j)
       for (int i = 0; i < 3; ++i) {
-        set(1 + i, 1 + j, 1 + k);
-        set(4 + i, 4 + j, 4 + k);
+        set(1 + i, 1 + j, 1 + k, 1);
+        set(4 + i, 4 + j, 4 + k, 1);
       }
-  set(4, 4, 3);
+  set(5, 5, 3, 1);
   const auto sizes = [&](const TornBubbles& torn) {
     std::vector<std::size_t> n_cells;
     for (const PhasePiece& piece : find_pieces(Lattice{cells}, winner, torn).piece)
@@ -66,10 +66,56 @@ TEST(PhasePieces, OfATornBubbleHangTogetherByFacesAndKeepTheirCrumbs) {
   };
   EXPECT_EQ(sizes({}), (std::vector<std::size_t>{55}));
   EXPECT_EQ(sizes({{1}, 10}), (std::vector<std::size_t>{27, 28}));
-  set(4, 4, 3 - 1);
-  winner[(3 * 8 + 4) * 8 + 4] = 0;  // the crumb at (4, 4, 2) touches the lower cube alone, at an edge
+  set(5, 5, 3, 0);
+  set(0, 0, 0, 1);  // a crumb that touches the lower cube at a corner
   EXPECT_EQ(sizes({{1}, 10}), (std::vector<std::size_t>{28, 27}));
   EXPECT_EQ(sizes({{2}, 10}), (std::vector<std::size_t>{55}));
+  set(4, 4, 3, 1);  // shares an edge with the lower cube and a face with the upper one
+  EXPECT_EQ(sizes({{1}, 10}), (std::vector<std::size_t>{56}));
+}
+
+/// Two balls about ±`centre`.
+testing::Potential two_balls(const Vec3& centre) {
+  return union_of({{-centre, 4.5 * h}, {centre, 4.5 * h}});
+}
+
+std::vector<mesh::Phase> torn_phases(const PhasePotentials& potentials, Pieces pieces) {
+  const auto films = contour(parallel::Communicator::self(), potentials, find_winners(potentials), pieces);
+  return torn_bubbles(h, closed_surfaces(films, mesh::build_topology(films)), smallest_volume).phase;
+}
+
+TEST(TornBubbles, AreTornAlongTheDiagonalOfACubeThatTetrahedraWouldLink) {
+  // The two nearest cells of the balls are opposite corners of the cube in the middle; those of the others
+  // are opposite corners of a face.
+  const auto at_corner = testing::sampled(testing::cube_box(32), two_balls({3 * h, 3 * h, 3 * h}), 2),
+             at_edge = testing::sampled(testing::cube_box(32), two_balls({3.5 * h, 3.5 * h, 0}), 2);
+  EXPECT_EQ(torn_phases(at_corner, Pieces::OfCubes), std::vector<mesh::Phase>{1});
+  EXPECT_TRUE(torn_phases(at_corner, Pieces::OfTetrahedra).empty());
+  EXPECT_TRUE(torn_phases(at_edge, Pieces::OfCubes).empty());
+  for (const auto* potentials : {&at_corner, &at_edge})
+    EXPECT_EQ(find_pieces(potentials->lattice(), find_winners(*potentials)).piece.size(), 2u);
+}
+
+TEST(TornBubbles, BecomeTwo) {
+  auto potentials = testing::sampled(testing::cube_box(32), two_balls({3 * h, 3 * h, 3 * h}), 2);
+  auto phases = testing::unset_phases(1);
+  phases.target_volume[1] = 7e-10;
+  std::vector<PhaseChange> changes;
+  const auto found = find_films(parallel::Communicator::self(), potentials, find_winners(potentials), phases,
+                                smallest_volume, changes);
+  ASSERT_EQ(changes.size(), 1u);
+  EXPECT_EQ(changes[0].kind, Kind::Split);
+  EXPECT_EQ(phases.count(), 3);
+  EXPECT_TRUE(torn_bubbles(h, closed_surfaces(found.films, found.topology), smallest_volume).phase.empty());
+}
+
+TEST(TornBubbles, AreNotLayersAcrossAPeriodicBox) {
+  const auto layer = [](mesh::Phase p, const Vec3& x) {
+    const double d = 5 * h - std::abs(x.x);
+    return p == 0 ? -100 * h : p == 1 ? d : -d;
+  };
+  const auto potentials = testing::sampled(testing::cube_box(32), layer, 3);
+  EXPECT_TRUE(torn_phases(potentials, Pieces::OfCubes).empty());
 }
 
 TEST(SeparatePieces, GivesALargePieceANewPhase) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <stdexcept>
 
 namespace {
 
@@ -35,6 +36,21 @@ TEST(SharedMemory, StartsWithZerosOnWholeCacheLines) {
     }
     memory->synchronise();
   }
+}
+
+// The others do not meet it: here they keep their memory.
+TEST(SharedMemory, DoesNotHoldUpARankThatFailsAlone) {
+  const Communicator world = Communicator::world();
+  bool has_failed = false;
+  try {
+    auto memory = SharedMemory::among(world, 10);
+    if (world.is_root()) throw std::runtime_error("alone");
+    static_cast<void>(memory.release());
+  } catch (const std::runtime_error&) {
+    has_failed = true;
+  }
+  EXPECT_EQ(has_failed, world.is_root());
+  world.barrier();
 }
 
 TEST(SharedMemory, IsRefusedWhereThereIsNoRoom) {
