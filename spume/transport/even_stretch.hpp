@@ -12,7 +12,7 @@ namespace spume::transport {
 /// liquid; likewise λ of a border's. A dof without area before takes its lamella's mean η; a lamella without
 /// area after keeps the liquid of its dofs. Liquid left where it is, dof by dof, would grow thin wherever the
 /// mesh happens to be drawn out, mostly where films grow. total() is kept to round-off, however often. Throws
-/// NumericalError where a position or a volume is not finite.
+/// NumericalError where a volume is not finite.
 void stretch_evenly(const mesh::FilmMesh& from, const mesh::FilmMesh& to, const mesh::Topology& topology,
                     state::FilmLiquid& liquid);
 
