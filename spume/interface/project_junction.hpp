@@ -15,7 +15,7 @@ namespace spume::interface {
 /// along a line, as in the middle of a T1, the two differ in what there is: the contour may have junctions,
 /// and slender films between them, that the potentials do not have. Newton's method takes such a junction
 /// onto another one or past one, and what lies between them would turn over. It shows by
-///  - a long way (0.5 h; others move by less than 0.3 h);
+///  - a long way (0.5 h; hardly any other moves by more than 0.3 h);
 ///  - the phases about the point following each other in another order than in the mesh;
 ///  - another phase being larger there, of those that meet at vertices to which the mesh leads from the
 ///    junction within h.

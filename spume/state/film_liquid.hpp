@@ -6,8 +6,8 @@ namespace spume::state {
 
 /// The liquid of the films as volumes [m³], one per film dof (vertex, lamella) and one per border dof
 /// (vertex, border) of mesh::Topology of the film mesh. Half-thickness η = volume/(2 lumped area),
-/// cross-section λ = volume/lumped length; so nothing moves between reconstructions, and total() is the
-/// ledger 2Σ∫η dA + Σ∫λ dℓ.
+/// cross-section λ = volume/lumped length; so nothing changes hands while films move with the gas, and
+/// total() is the ledger 2Σ∫η dA + Σ∫λ dℓ.
 struct FilmLiquid {
   std::vector<double> lamella_volume;            ///< per film dof [m³]
   std::vector<double> border_volume;             ///< per border dof [m³]

@@ -17,7 +17,7 @@ namespace spume::verification {
 class BubbleWave {
  public:
   BubbleWave(int n, double radius, const WaveMaterials& of);
-  /// a(t)/a0. For 0 < t < 18/ω0: to 1e-7.
+  /// a(t)/a0. For 0 < t < 20/ω0: to 1e-7.
   double amplitude(double t) const;
   /// e(t) R/a0. The same.
   double stretch(double t) const;

@@ -26,8 +26,9 @@ struct Oscillation {
 };
 
 /// The same fit to the exact solution from rest in gas without end, at times spaced evenly. At μ = 0.05 its ω
-/// is 0.2 % and its γ 0.7 % below those of the normal mode, at μ = 0.01 0.04 % and 0.2 %: from rest the film
-/// keeps a slow part beside its mode.
+/// is 0.2 % and its γ 0.5 to 0.7 % (modes 4 to 2) below those of the normal mode, at μ = 0.01 0.04 % and 0.2
+/// %: from rest the film keeps a slow part beside its mode. As far as BubbleWave is exact, which 2.5 periods
+/// are.
 Decay fit_exact(const OscillationSetting& setting);
 
 /// Collective.

@@ -106,5 +106,19 @@ TEST(EvenStretch, GivesADofThatHadNoAreaTheMeanOfItsLamella) {
   for (double eta : patterns::half_thickness(after, liquid)) EXPECT_NEAR(eta / mean, 1, round_off);
 }
 
+TEST(EvenStretch, KeepsTheLiquidOfALamellaThatShrinksToAPointAndComesBack) {
+  const Foam sphere(shapes::sphere({}, radius, 2, 1));
+  Foam point = sphere;
+  for (Vec3& x : point.films.position) x = {};
+  const state::FilmLiquid start = patterns::liquid_of(sphere, slanted, slanted_border);
+  state::FilmLiquid liquid = start;
+  transport::stretch_evenly(sphere.films, point.films, sphere.topology, liquid);
+  EXPECT_EQ(liquid.lamella_volume, start.lamella_volume);
+  transport::stretch_evenly(point.films, sphere.films, sphere.topology, liquid);
+  EXPECT_NEAR(liquid.total() / start.total(), 1, 1e-14);
+  const double mean = start.total() / (2 * mesh::film_area(sphere.films));
+  for (double eta : patterns::half_thickness(sphere, liquid)) EXPECT_NEAR(eta / mean, 1, round_off);
+}
+
 }  // namespace
 }  // namespace spume
