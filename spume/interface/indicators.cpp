@@ -209,7 +209,7 @@ class TriangleSpread {
 };
 
 /// The rank that computes each phase, or −1 where it has no cells: neighbours along z together, since a film
-/// between bubbles of two ranks is spread by both, and rooms of as many cells for each rank.
+/// between bubbles of two ranks is spread by both, and rooms of about as many cells for each rank.
 std::vector<int> owners(const PhaseBlocks& blocks, int n_ranks) {
   std::vector<std::size_t> phases;
   double all = 0;

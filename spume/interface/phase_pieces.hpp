@@ -47,7 +47,7 @@ PhasePieces find_pieces(const Lattice& lattice, const std::vector<mesh::Phase>& 
                         const TornBubbles& torn = {});
 
 /// A closed surface of one phase: lamellae linked by vertices that they share, all by the images nearest to
-/// one of them. What goes around half a periodic box or more is not measured: its volume is infinite.
+/// one of them. What spans more than 0.4 of a periodic box is not measured: its volume is infinite.
 struct ClosedSurface {
   mesh::Phase phase;
   double volume = 0;  ///< enclosed; negative around a cavity [m³]
@@ -59,8 +59,8 @@ struct ClosedSurface {
 std::vector<ClosedSurface> closed_surfaces(const mesh::FilmMesh& films, const mesh::Topology& topology);
 
 /// The bubbles whose films enclose `smallest_volume` [m³] or more in several closed surfaces. Of surfaces
-/// around half a periodic box or more it is not known what they enclose: a bubble that has these alone is
-/// taken for whole.
+/// that span more than 0.4 of a periodic box it is not known what they enclose: a bubble that has these alone
+/// is taken for whole.
 TornBubbles torn_bubbles(double h, const std::vector<ClosedSurface>& surfaces, double smallest_volume);
 
 /// Makes every phase one piece. The largest piece keeps the phase. Another one becomes a new phase when its

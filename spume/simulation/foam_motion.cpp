@@ -19,8 +19,7 @@ FoamMotion::FoamMotion(const grid::Grid& grid, const Case& run_case, RunState& r
       spreader_(grid),
       force_(grid),
       film_velocity_(grid),
-      topology_(mesh::build_topology(run.foam.films)),
-      film_area_(mesh::film_area(run.foam.films)) {
+      topology_(mesh::build_topology(run.foam.films)) {
   if (run.rearrange.reference.empty()) run.rearrange.reference = run.foam.films.position;
   if (run_case.rearrangement.interface == RearrangementParameters::Interface::Viim)
     viim_.emplace(grid, run_case, run.foam);
@@ -115,7 +114,7 @@ MotionStep FoamMotion::step() {
   times_.lap("spreading");
 
   MotionStep done{.limit = choose_step(), .events = {}};
-  done.virial = virial_ratio(foam.films, foam.phases, forces.pressure, film_area_, sigma);
+  done.virial = virial_ratio(foam.films, foam.phases, forces.pressure, mesh::film_area(foam.films), sigma);
   times_.lap("time step and virial");
   gas_.step(foam.gas, force_, done.limit.dt);
   times_.lap("gas");
@@ -127,7 +126,7 @@ MotionStep FoamMotion::step() {
   transport::fill_young_films(foam.films, topology_, foam.liquid, grid_.h(), case_.transport);
   times_.lap("young films");
 
-  done.film_area = film_area_ = mesh::film_area(foam.films);
+  done.film_area = mesh::film_area(foam.films);
   done.kinetic_energy = flow::kinetic_energy(foam.gas, case_.materials.gas.density);
   done.correction = 2 * sigma * (done.film_area - area_carried);
   times_.lap("measures");

@@ -63,7 +63,6 @@ class FoamMotion {
   flow::ForceSpreader spreader_;
   grid::VectorField force_, film_velocity_;
   mesh::Topology topology_;
-  double film_area_;  ///< [m²]
   std::optional<ViimMotion> viim_;
   StageTimes times_, reconstruction_times_;
 };
