@@ -74,6 +74,12 @@ TEST(PhasePieces, OfATornBubbleAreNotLinkedThroughCornersAndKeepTheirCrumbs) {
   EXPECT_EQ(sizes({{1}, 10}), (std::vector<std::size_t>{56}));
 }
 
+FoundFilms found_films(PhasePotentials& potentials, state::Phases& phases,
+                       std::vector<PhaseChange>& changes) {
+  return find_films(parallel::Communicator::self(), potentials, find_winners(potentials), phases,
+                    smallest_volume, changes);
+}
+
 /// Two balls about ±`centre`.
 testing::Potential two_balls(const Vec3& centre) {
   return union_of({{-centre, 4.5 * h}, {centre, 4.5 * h}});
@@ -101,8 +107,7 @@ TEST(TornBubbles, BecomeTwo) {
   auto phases = testing::unset_phases(1);
   phases.target_volume[1] = 7e-10;
   std::vector<PhaseChange> changes;
-  const auto found = find_films(parallel::Communicator::self(), potentials, find_winners(potentials), phases,
-                                smallest_volume, changes);
+  const auto found = found_films(potentials, phases, changes);
   ASSERT_EQ(changes.size(), 1u);
   EXPECT_EQ(changes[0].kind, Kind::Split);
   EXPECT_EQ(phases.count(), 3);
@@ -124,8 +129,7 @@ TEST(SeparatePieces, GivesALargePieceANewPhase) {
   auto phases = testing::unset_phases(1);
   phases.target_volume[1] = 7e-10;
   std::vector<PhaseChange> changes;
-  const auto found = find_films(parallel::Communicator::self(), potentials, find_winners(potentials), phases,
-                                smallest_volume, changes);
+  const auto found = found_films(potentials, phases, changes);
   ASSERT_EQ(changes.size(), 1u);
   EXPECT_EQ(changes[0].kind, Kind::Split);
   EXPECT_EQ(changes[0].other, 2);
@@ -173,8 +177,7 @@ TEST(SeparatePieces, MakesAPhaseOfAnEnclosedPocketOfTheOutside) {
   auto phases = testing::unset_phases(1);
   phases.target_volume[1] = 1e-9;
   std::vector<PhaseChange> changes;
-  const auto found = find_films(parallel::Communicator::self(), potentials, find_winners(potentials), phases,
-                                smallest_volume, changes);
+  const auto found = found_films(potentials, phases, changes);
   ASSERT_EQ(changes.size(), 1u);
   EXPECT_EQ(changes[0].kind, Kind::Pocket);
   EXPECT_DOUBLE_EQ(phases.target_volume[2], smooth_phase_volumes(found.films, found.topology, 3)[2]);
