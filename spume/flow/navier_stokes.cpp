@@ -27,7 +27,7 @@ struct NavierStokes::Implementation {
         force(velocity[0]),
         pressure(velocity[0]),
         acceleration(block_vector(BlockLayout(on))),
-        window(on) {}
+        window(on, 2) {}
 
   void mean_on_faces(const grid::Field& u, int c, BlockArray& face);
   void intermediate_rate(const state::GasFlow& flow, const grid::VectorField& body_force, double dt);
@@ -104,22 +104,22 @@ const StageTimes& NavierStokes::times() const {
 void NavierStokes::Implementation::mean_on_faces(const grid::Field& u, int c, BlockArray& face) {
   const BlockLayout layout(grid);
   const Index3 n = grid.cells();
-  const auto take_mean = [&](int j, int k, int n_faces, const double* upper, const double* lower) {
+  const auto take_mean = [&](int j, int k, int n_faces, int layer) {
+    const auto cell = [&](int d) {
+      return c == 0 ? window.row(j, layer) + d : c == 1 ? window.row(j + d, layer) : window.row(j, k + d);
+    };
+    const double *before = cell(-2), *lower = cell(-1), *upper = cell(0), *after = cell(1);
     double* normal = face.first() + layout.offset(0, j, k - grid.z_begin());
 #pragma GCC ivdep
-    for (int i = 0; i < n_faces; ++i) normal[i] = 0.5 * (lower[i] + upper[i]);
+    for (int i = 0; i < n_faces; ++i)
+      normal[i] = (7.0 / 12) * (lower[i] + upper[i]) - (1.0 / 12) * (before[i] + after[i]);
   };
   window.open(u);
   for (int k = grid.z_begin(); k < grid.z_end(); ++k) {
     window.move_to(k);
-    for (int j = 0; j < (c == 1 ? n.j + 1 : n.j); ++j) {
-      const double* upper = window.row(j, k);
-      const double* lower = c == 0 ? upper - 1 : c == 1 ? window.row(j - 1, k) : window.row(j, k - 1);
-      take_mean(j, k, c == 0 ? n.i + 1 : n.i, upper, lower);
-    }
+    for (int j = 0; j < (c == 1 ? n.j + 1 : n.j); ++j) take_mean(j, k, c == 0 ? n.i + 1 : n.i, k);
   }
-  for (int j = 0; c == 2 && j < n.j; ++j)
-    take_mean(j, grid.z_end(), n.i, window.row(j, grid.z_end()), window.row(j, grid.z_end() - 1));
+  for (int j = 0; c == 2 && j < n.j; ++j) take_mean(j, grid.z_end(), n.i, grid.z_end());
 }
 
 void NavierStokes::film_velocity(const state::GasFlow& flow, grid::VectorField& on_faces) {

@@ -30,7 +30,8 @@ Projection::Projection(const grid::Grid& grid, grid::EllipticSolver& elliptic)
       layout_(grid),
       potential_(grid),
       phi_(grid),
-      x_{grid::LayerWindow(grid), grid::LayerWindow(grid), grid::LayerWindow(grid)} {}
+      wide_(grid, 2),
+      x_{grid::LayerWindow(grid, 2), grid::LayerWindow(grid, 2), grid::LayerWindow(grid, 2)} {}
 
 void Projection::clear_divergence(BlockVector& face_velocity) {
   double* rhs = potential_.values().data();
@@ -62,34 +63,40 @@ void Projection::clear_divergence(BlockVector& face_velocity) {
 /// Subtracts Gφ with ∇²_h φ = D x from x, and leaves φ in potential_.
 void Projection::remove_gradient(grid::VectorField& x) {
   const Index3 n = grid_.cells();
-  const double half_per_h = 0.5 / grid_.h();
+  const double per_h = 1 / (12 * grid_.h());
   double* source = potential_.values().data();
   for (int c = 0; c < 3; ++c) x_[c].open(x[c]);
   for (int k = grid_.z_begin(); k < grid_.z_end(); ++k) {
     for (grid::LayerWindow& window : x_) window.move_to(k);
     for (int j = 0; j < n.j; ++j, source += n.i) {
-      const double *u = x_[0].row(j, k), *v_below = x_[1].row(j - 1, k), *v_above = x_[1].row(j + 1, k),
-                   *w_below = x_[2].row(j, k - 1), *w_above = x_[2].row(j, k + 1);
+      const double* u = x_[0].row(j, k);
+      const auto v = [&](int d) { return x_[1].row(j + d, k); };
+      const auto w = [&](int d) { return x_[2].row(j, k + d); };
+      const double *v_2 = v(-2), *v_1 = v(-1), *v1 = v(1), *v2 = v(2), *w_2 = w(-2), *w_1 = w(-1), *w1 = w(1),
+                   *w2 = w(2);
 #pragma GCC ivdep
       for (int i = 0; i < n.i; ++i)
-        source[i] =
-            -half_per_h * (u[i + 1] - u[i - 1] + (v_above[i] - v_below[i]) + (w_above[i] - w_below[i]));
+        source[i] = -per_h * (8 * (u[i + 1] - u[i - 1] + (v1[i] - v_1[i]) + (w1[i] - w_1[i])) -
+                              (u[i + 2] - u[i - 2] + (v2[i] - v_2[i]) + (w2[i] - w_2[i])));
     }
   }
   elliptic_.solve(0, 1, potential_, potential_);
 
   double *u = x[0].values().data(), *v = x[1].values().data(), *w = x[2].values().data();
-  phi_.open(potential_);
+  wide_.open(potential_);
   for (int k = grid_.z_begin(); k < grid_.z_end(); ++k) {
-    phi_.move_to(k);
+    wide_.move_to(k);
     for (int j = 0; j < n.j; ++j, u += n.i, v += n.i, w += n.i) {
-      const double *phi = phi_.row(j, k), *below_y = phi_.row(j - 1, k), *above_y = phi_.row(j + 1, k),
-                   *below_z = phi_.row(j, k - 1), *above_z = phi_.row(j, k + 1);
+      const double* phi = wide_.row(j, k);
+      const auto y = [&](int d) { return wide_.row(j + d, k); };
+      const auto z = [&](int d) { return wide_.row(j, k + d); };
+      const double *y_2 = y(-2), *y_1 = y(-1), *y1 = y(1), *y2 = y(2), *z_2 = z(-2), *z_1 = z(-1), *z1 = z(1),
+                   *z2 = z(2);
 #pragma GCC ivdep
       for (int i = 0; i < n.i; ++i) {
-        u[i] -= half_per_h * (phi[i + 1] - phi[i - 1]);
-        v[i] -= half_per_h * (above_y[i] - below_y[i]);
-        w[i] -= half_per_h * (above_z[i] - below_z[i]);
+        u[i] -= per_h * (8 * (phi[i + 1] - phi[i - 1]) - (phi[i + 2] - phi[i - 2]));
+        v[i] -= per_h * (8 * (y1[i] - y_1[i]) - (y2[i] - y_2[i]));
+        w[i] -= per_h * (8 * (z1[i] - z_1[i]) - (z2[i] - z_2[i]));
       }
     }
   }

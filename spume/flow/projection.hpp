@@ -42,7 +42,7 @@ class Projection {
   grid::EllipticSolver& elliptic_;
   BlockLayout layout_;
   grid::Field potential_;  ///< whose gradient was removed last
-  grid::LayerWindow phi_;  ///< on the potential
+  grid::LayerWindow phi_, wide_;  ///< on the potential
   std::array<grid::LayerWindow, 3> x_;
 };
 

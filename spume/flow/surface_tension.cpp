@@ -31,10 +31,13 @@ void ForceSpreader::spread(const mesh::FilmMesh& films, const FilmForces& forces
     for (int k = grid.z_begin(); k < grid.z_end(); ++k) {
       window_.move_to(k);
       for (int j = 0; j < n.j; ++j, to += n.i) {
-        const double* face = window_.row(j, k);
-        const double* upper = c == 0 ? face + 1 : c == 1 ? window_.row(j + 1, k) : window_.row(j, k + 1);
+        const auto face = [&](int d) {
+          return c == 0 ? window_.row(j, k) + d : c == 1 ? window_.row(j + d, k) : window_.row(j, k + d);
+        };
+        const double *before = face(-1), *lower = face(0), *upper = face(1), *after = face(2);
 #pragma GCC ivdep
-        for (int i = 0; i < n.i; ++i) to[i] = 0.5 * (face[i] + upper[i]);
+        for (int i = 0; i < n.i; ++i)
+          to[i] = (7.0 / 12) * (lower[i] + upper[i]) - (1.0 / 12) * (before[i] + after[i]);
       }
     }
   }

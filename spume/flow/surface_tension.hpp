@@ -30,7 +30,7 @@ FilmForces film_forces(const mesh::FilmMesh& films, const mesh::Topology& topolo
 /// Brings film forces to the gas.
 class ForceSpreader {
  public:
-  explicit ForceSpreader(const grid::Grid& grid) : on_faces_(grid), window_(grid) {}
+  explicit ForceSpreader(const grid::Grid& grid) : on_faces_(grid), window_(grid, 2) {}
 
   /// st_ζ of the paper's (7): vertex forces spread to faces by the kernel, sharpened, and brought to the
   /// centres of cells by the mean of a cell's two faces [N/m³]. Overwrites `density`. Collective.

@@ -7,20 +7,26 @@ namespace spume::grid {
 /// How the values of a field go on beyond the faces across an axis: ghosts are images of cells, times a sign.
 struct Continuation {
   Boundary boundary = Boundary::Periodic;
-  double sign_below = 1, sign_above = 1;
+  double sign = 1;
+  bool on_wall = false;  ///< the values lie on faces, and the first and the one above the last are a wall's
 
   Continuation() = default;
-  /// With `on_faces` the values lie on the lower faces of the cells, and the one above the last is a wall's,
-  /// which is zero.
+  /// With `on_faces` the values lie on the lower faces of the cells; those on a wall are zero.
   Continuation(const Field& f, int axis, bool on_faces = false) : boundary(f.grid().box().boundary[axis]) {
-    const bool walled = boundary != Boundary::Periodic;
-    sign_below = walled && f.symmetry()[axis] == Parity::Odd ? -1 : 1;
-    sign_above = walled && on_faces ? 0 : sign_below;
+    if (boundary == Boundary::Periodic) return;
+    sign = f.symmetry()[axis] == Parity::Odd ? -1 : 1;
+    on_wall = on_faces;
   }
   /// Places along the axis, ghosts counted, of the cells whose images are the g-th ghosts, counted from the
   /// face, for w layers of ghosts and n inner places.
-  int below(int g, int w, int n) const { return boundary == Boundary::Periodic ? w + n - 1 - g : w + g; }
-  int above(int g, int w, int n) const { return boundary == Boundary::Periodic ? w + g : w + n - 1 - g; }
+  int below(int g, int w, int n) const {
+    return boundary == Boundary::Periodic ? w + n - 1 - g : w + g + (on_wall ? 1 : 0);
+  }
+  int above(int g, int w, int n) const {
+    return boundary == Boundary::Periodic ? w + g : w + n - 1 - g + (on_wall ? 1 : 0);
+  }
+  /// The sign of the g-th ghosts above.
+  double sign_above(int g) const { return on_wall && g == 0 ? 0 : sign; }
 };
 
 /// Receives the first `depth` layers of the rank above into `above` and the last of the rank below into

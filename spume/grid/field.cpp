@@ -46,13 +46,13 @@ void fill_layer(const GhostedShape& shape, const Continuation& x, const Continua
     double* row = layer + (j + w) * stride;
     std::memmove(row + w, from + static_cast<std::ptrdiff_t>(j) * nx, sizeof(double) * nx);
     for (int g = 0; g < w; ++g) {
-      row[w - 1 - g] = x.sign_below * row[x.below(g, w, nx)];
-      row[w + nx + g] = x.sign_above * row[x.above(g, w, nx)];
+      row[w - 1 - g] = x.sign * row[x.below(g, w, nx)];
+      row[w + nx + g] = x.sign * row[x.above(g, w, nx)];
     }
   }
   for (int g = 0; g < w; ++g) {
-    copy(layer + y.below(g, w, ny) * stride, stride, y.sign_below, layer + (w - 1 - g) * stride);
-    copy(layer + y.above(g, w, ny) * stride, stride, y.sign_above, layer + (w + ny + g) * stride);
+    copy(layer + y.below(g, w, ny) * stride, stride, y.sign, layer + (w - 1 - g) * stride);
+    copy(layer + y.above(g, w, ny) * stride, stride, y.sign, layer + (w + ny + g) * stride);
   }
 }
 
@@ -88,11 +88,11 @@ void exchange_ghosts(const Field& f, int width, std::vector<double>& buffer) {
   const WallsAlongZ wall(grid);
   for (int g = w - 1; g >= 0; --g) {
     if (wall.below)
-      copy(at(z.below(w - 1 - g, w, n)), shape.stride[2], z.sign_below, at(g));
+      copy(at(z.below(w - 1 - g, w, n)), shape.stride[2], z.sign, at(g));
     else
       fill_layer(shape, x, y, at(0) + g * layer, at(g));
     if (wall.above)
-      copy(at(z.above(g, w, n)), shape.stride[2], z.sign_above, at(w + n + g));
+      copy(at(z.above(g, w, n)), shape.stride[2], z.sign, at(w + n + g));
     else
       fill_layer(shape, x, y, at(w + n) + g * layer, at(w + n + g));
   }

@@ -9,17 +9,17 @@
 
 namespace spume::grid {
 
-/// A few consecutive layers of cells with one ghost around each in x and y. A new layer takes the place of
-/// the one four below it.
+/// A few consecutive layers of cells with `reach` ghosts around each in x and y. A new layer takes the place
+/// of the one 2 reach + 2 below it.
 class LayerRing {
  public:
-  explicit LayerRing(const Grid& grid);
+  explicit LayerRing(const Grid& grid, int reach = 1);
 
   /// How the layers to come go on across x and y.
   void continue_by(const Continuation& x, const Continuation& y);
-  /// The value of cell (0, j, k); its neighbours in x are beside it, cells −1 and n_x included.
-  double* row(int j, int k) { return layer(k) + (j + 1) * stride_y_ + 1; }
-  const double* row(int j, int k) const { return layer(k) + (j + 1) * stride_y_ + 1; }
+  /// The value of cell (0, j, k); its neighbours in x are beside it, ghosts included.
+  double* row(int j, int k) { return layer(k) + (j + reach_) * stride_y_ + reach_; }
+  const double* row(int j, int k) const { return layer(k) + (j + reach_) * stride_y_ + reach_; }
   std::ptrdiff_t stride_y() const { return stride_y_; }
   /// Layer k ← sign × cells, n_x n_y of them.
   void take(int k, double sign, const double* cells);
@@ -29,34 +29,35 @@ class LayerRing {
   void fill_ghosts(int k);
 
  private:
-  static constexpr int n_kept = 4;
-  std::ptrdiff_t place(int k) const { return ((k + n_kept) % n_kept) * stride_z_; }  // from k = −4 on
+  std::ptrdiff_t place(int k) const { return ((k + n_kept_) % n_kept_) * stride_z_; }  // from k = −n_kept on
   double* layer(int k) { return values_.data() + place(k); }
   const double* layer(int k) const { return values_.data() + place(k); }
 
   Index3 n_;
+  int reach_, n_kept_;
   std::ptrdiff_t stride_y_, stride_z_;
   std::vector<double> values_;
   Continuation x_, y_;
 };
 
-/// A field seen through a window of three layers, each with its ghosts, that moves up layer by layer. It
+/// A field seen through a window of 2 reach + 1 layers, each with its ghosts, that moves up layer by layer. It
 /// stays in the cache, where Ghosted is a copy of the whole field, which costs more than a short stencil
 /// itself.
 class LayerWindow {
  public:
-  /// With `depth` 2 the window also stands on the layers next to the owned ones, unless a wall is between.
-  explicit LayerWindow(const Grid& grid, int depth = 1);
+  /// `reach`: how many cells can be seen on either side. With `beyond` 1 the window also stands on the layers
+  /// next to the owned ones, unless a wall is between.
+  explicit LayerWindow(const Grid& grid, int reach = 1, int beyond = 0);
 
   /// Puts the window before its first layer. `face_axis`: the axis whose lower faces the values lie on; −1
   /// for values at centres. Collective.
   void open(const Field& f, int face_axis = -1);
   void open(const Field&&, int = -1) = delete;
   /// The layers on which it can stand.
-  int first() const { return begin_ - (walls_.below ? 0 : depth_ - 1); }
-  int last() const { return end_ - 1 + (walls_.above ? 0 : depth_ - 1); }
-  /// Moves on to the next layer k; layers k − 1, k and k + 1 can be seen. The field may be overwritten up to
-  /// layer k now.
+  int first() const { return begin_ - (walls_.below ? 0 : beyond_); }
+  int last() const { return end_ - 1 + (walls_.above ? 0 : beyond_); }
+  /// Moves on to the next layer k; layers k − reach to k + reach can be seen. The field may be overwritten up
+  /// to layer k now.
   void move_to(int k);
   const double* row(int j, int k) const { return ring_.row(j, k); }
   std::ptrdiff_t stride_y() const { return ring_.stride_y(); }
@@ -67,7 +68,8 @@ class LayerWindow {
  private:
   void load(int k);
 
-  int depth_, begin_, end_;        ///< owned layers
+  int reach_, beyond_;
+  int begin_, end_;                ///< owned layers
   int next_ = 0;                   ///< layer to be loaded
   const double* owned_ = nullptr;  ///< values of the field
   WallsAlongZ walls_;

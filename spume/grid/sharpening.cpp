@@ -69,12 +69,12 @@ void Sharpening::apply(Field& u, int face_axis) {
   for (int k = u_.first(); k <= u_.last(); ++k) {
     u_.move_to(k);
     make_image(k, wall_axis);
-    if (k == grid.z_begin() && u_.walls().below) image_.take_image(k - 1, z.sign_below, k);
+    if (k == grid.z_begin() && u_.walls().below) image_.take_image(k - 1, z.sign, k);
     if (k > grid.z_begin()) finish(k - 1, wall_axis, layer(k - 1));
   }
   if (!u_.walls().above) return;
   const int top = grid.z_end() - 1;
-  image_.take_image(top + 1, z.sign_above, top);
+  image_.take_image(top + 1, z.sign_above(0), top);
   finish(top, wall_axis, layer(top));
 }
 

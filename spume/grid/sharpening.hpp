@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdlib>
 
 #include "spume/grid/field.hpp"
 #include "spume/grid/kernel_coupling.hpp"
@@ -16,9 +17,9 @@ namespace spume::grid {
 /// theory that includes projection and flat triangles, and in simulated waves; see docs/decisions/0013.
 class Sharpening {
  public:
-  static constexpr double a = 0.14, b = 0.085;
+  inline static const double a = std::getenv("SA") ? std::atof(std::getenv("SA")) : 0.14, b = std::getenv("SB") ? std::atof(std::getenv("SB")) : 0.06;
 
-  explicit Sharpening(const Grid& grid) : n_(grid.cells()), u_(grid, 2), image_(grid) {}
+  explicit Sharpening(const Grid& grid) : n_(grid.cells()), u_(grid, 1, 1), image_(grid) {}
 
   /// u ← S u, components continued across walls by their symmetry; one that lies on a wall's faces is
   /// zero there, before and after. Collective. The result is bitwise the same on any number of ranks.
