@@ -1,5 +1,7 @@
 #include "spume/flow/crank_nicolson.hpp"
 
+#include "spume/flow/wide_mean.hpp"
+
 namespace spume::flow {
 
 void explicit_acceleration(const grid::Grid& grid, const state::Gas& gas, int component,
@@ -10,7 +12,7 @@ void explicit_acceleration(const grid::Grid& grid, const state::Gas& gas, int co
   const double nu = gas.viscosity / gas.density;  // ν [m²/s]
   const double viscous = nu / (h * h);
   const double per_density = 1 / gas.density;
-  const double gradient = 1 / (12 * h * gas.density);
+  const double gradient = 1 / (h * gas.density);
   const std::ptrdiff_t s = layout.stride(component), sy = layout.stride(1), sz = layout.stride(2);
   const double *v = first(u, grid), *f = first(body_force, grid), *p = first(pressure, grid);
   double* a = acceleration.first();
@@ -19,7 +21,7 @@ void explicit_acceleration(const grid::Grid& grid, const state::Gas& gas, int co
     for (std::ptrdiff_t c = row; c < row + n; ++c) {
       const double neighbours = v[c - 1] + v[c + 1] + v[c - sy] + v[c + sy] + v[c - sz] + v[c + sz];
       a[c] = viscous * (neighbours - 6 * v[c]) + per_density * f[c] -
-             gradient * (8 * (p[c + s] - p[c - s]) - (p[c + 2 * s] - p[c - 2 * s]));
+             gradient * wide_difference(p[c - 2 * s], p[c - s], p[c + s], p[c + 2 * s]);
     }
   });
 }

@@ -10,6 +10,7 @@
 #include "spume/flow/crank_nicolson.hpp"
 #include "spume/flow/godunov.hpp"
 #include "spume/flow/projection.hpp"
+#include "spume/flow/wide_mean.hpp"
 #include "spume/grid/layer_window.hpp"
 
 namespace spume::flow {
@@ -100,7 +101,7 @@ const StageTimes& NavierStokes::times() const {
   return implementation_->times;
 }
 
-/// Means of the two cells of every face across axis c that an owned cell has. Collective.
+/// The wide_mean() of cells on every face across axis c that an owned cell has. Collective.
 void NavierStokes::Implementation::mean_on_faces(const grid::Field& u, int c, BlockArray& face) {
   const BlockLayout layout(grid);
   const Index3 n = grid.cells();
@@ -111,8 +112,7 @@ void NavierStokes::Implementation::mean_on_faces(const grid::Field& u, int c, Bl
     const double *before = cell(-2), *lower = cell(-1), *upper = cell(0), *after = cell(1);
     double* normal = face.first() + layout.offset(0, j, k - grid.z_begin());
 #pragma GCC ivdep
-    for (int i = 0; i < n_faces; ++i)
-      normal[i] = (7.0 / 12) * (lower[i] + upper[i]) - (1.0 / 12) * (before[i] + after[i]);
+    for (int i = 0; i < n_faces; ++i) normal[i] = wide_mean(before[i], lower[i], upper[i], after[i]);
   };
   window.open(u);
   for (int k = grid.z_begin(); k < grid.z_end(); ++k) {

@@ -45,7 +45,7 @@ class NavierStokes {
   /// projections.
   const StageTimes& times() const;
 
-  /// The velocity with which films move, on faces (grid::Placement::Faces): means of two cells, made free of
+  /// The velocity with which films move, on faces (grid::Placement::Faces): wide means of cells, made free of
   /// divergence by the MAC projection. What the approximate projection of a step leaves of the gradients in
   /// newly spread forces would else move the films, and damp them. Collective.
   void film_velocity(const state::GasFlow& flow, grid::VectorField& on_faces);

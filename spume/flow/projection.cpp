@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spume/flow/wide_mean.hpp"
+
 namespace spume::flow {
 
 namespace {
@@ -29,8 +31,7 @@ Projection::Projection(const grid::Grid& grid, grid::EllipticSolver& elliptic)
       elliptic_(elliptic),
       layout_(grid),
       potential_(grid),
-      phi_(grid),
-      wide_(grid, 2),
+      phi_(grid, 2),
       x_{grid::LayerWindow(grid, 2), grid::LayerWindow(grid, 2), grid::LayerWindow(grid, 2)} {}
 
 void Projection::clear_divergence(BlockVector& face_velocity) {
@@ -63,7 +64,7 @@ void Projection::clear_divergence(BlockVector& face_velocity) {
 /// Subtracts Gφ with ∇²_h φ = D x from x, and leaves φ in potential_.
 void Projection::remove_gradient(grid::VectorField& x) {
   const Index3 n = grid_.cells();
-  const double per_h = 1 / (12 * grid_.h());
+  const double per_h = 1 / grid_.h();
   double* source = potential_.values().data();
   for (int c = 0; c < 3; ++c) x_[c].open(x[c]);
   for (int k = grid_.z_begin(); k < grid_.z_end(); ++k) {
@@ -76,27 +77,28 @@ void Projection::remove_gradient(grid::VectorField& x) {
                    *w2 = w(2);
 #pragma GCC ivdep
       for (int i = 0; i < n.i; ++i)
-        source[i] = -per_h * (8 * (u[i + 1] - u[i - 1] + (v1[i] - v_1[i]) + (w1[i] - w_1[i])) -
-                              (u[i + 2] - u[i - 2] + (v2[i] - v_2[i]) + (w2[i] - w_2[i])));
+        source[i] = -per_h * (wide_difference(u[i - 2], u[i - 1], u[i + 1], u[i + 2]) +
+                              wide_difference(v_2[i], v_1[i], v1[i], v2[i]) +
+                              wide_difference(w_2[i], w_1[i], w1[i], w2[i]));
     }
   }
   elliptic_.solve(0, 1, potential_, potential_);
 
   double *u = x[0].values().data(), *v = x[1].values().data(), *w = x[2].values().data();
-  wide_.open(potential_);
+  phi_.open(potential_);
   for (int k = grid_.z_begin(); k < grid_.z_end(); ++k) {
-    wide_.move_to(k);
+    phi_.move_to(k);
     for (int j = 0; j < n.j; ++j, u += n.i, v += n.i, w += n.i) {
-      const double* phi = wide_.row(j, k);
-      const auto y = [&](int d) { return wide_.row(j + d, k); };
-      const auto z = [&](int d) { return wide_.row(j, k + d); };
+      const double* phi = phi_.row(j, k);
+      const auto y = [&](int d) { return phi_.row(j + d, k); };
+      const auto z = [&](int d) { return phi_.row(j, k + d); };
       const double *y_2 = y(-2), *y_1 = y(-1), *y1 = y(1), *y2 = y(2), *z_2 = z(-2), *z_1 = z(-1), *z1 = z(1),
                    *z2 = z(2);
 #pragma GCC ivdep
       for (int i = 0; i < n.i; ++i) {
-        u[i] -= per_h * (8 * (phi[i + 1] - phi[i - 1]) - (phi[i + 2] - phi[i - 2]));
-        v[i] -= per_h * (8 * (y1[i] - y_1[i]) - (y2[i] - y_2[i]));
-        w[i] -= per_h * (8 * (z1[i] - z_1[i]) - (z2[i] - z_2[i]));
+        u[i] -= per_h * wide_difference(phi[i - 2], phi[i - 1], phi[i + 1], phi[i + 2]);
+        v[i] -= per_h * wide_difference(y_2[i], y_1[i], y1[i], y2[i]);
+        w[i] -= per_h * wide_difference(z_2[i], z_1[i], z1[i], z2[i]);
       }
     }
   }

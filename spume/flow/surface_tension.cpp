@@ -1,6 +1,7 @@
 #include "spume/flow/surface_tension.hpp"
 
 #include "spume/flow/film_pull.hpp"
+#include "spume/flow/wide_mean.hpp"
 #include "spume/mesh/measure.hpp"
 
 namespace spume::flow {
@@ -36,8 +37,7 @@ void ForceSpreader::spread(const mesh::FilmMesh& films, const FilmForces& forces
         };
         const double *before = face(-1), *lower = face(0), *upper = face(1), *after = face(2);
 #pragma GCC ivdep
-        for (int i = 0; i < n.i; ++i)
-          to[i] = (7.0 / 12) * (lower[i] + upper[i]) - (1.0 / 12) * (before[i] + after[i]);
+        for (int i = 0; i < n.i; ++i) to[i] = wide_mean(before[i], lower[i], upper[i], after[i]);
       }
     }
   }

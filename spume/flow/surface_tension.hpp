@@ -33,7 +33,7 @@ class ForceSpreader {
   explicit ForceSpreader(const grid::Grid& grid) : on_faces_(grid), window_(grid, 2) {}
 
   /// st_ζ of the paper's (7): vertex forces spread to faces by the kernel, sharpened, and brought to the
-  /// centres of cells by the mean of a cell's two faces [N/m³]. Overwrites `density`. Collective.
+  /// centres of cells by wide_mean() [N/m³]. Overwrites `density`. Collective.
   void spread(const mesh::FilmMesh& films, const FilmForces& forces, const grid::KernelCoupling& kernel,
               grid::Sharpening& sharpening, grid::VectorField& density);
 

@@ -40,8 +40,8 @@ class LayerRing {
   Continuation x_, y_;
 };
 
-/// A field seen through a window of 2 reach + 1 layers, each with its ghosts, that moves up layer by layer. It
-/// stays in the cache, where Ghosted is a copy of the whole field, which costs more than a short stencil
+/// A field seen through a window of 2 reach + 1 layers, each with its ghosts, that moves up layer by layer.
+/// It stays in the cache, where Ghosted is a copy of the whole field, which costs more than a short stencil
 /// itself.
 class LayerWindow {
  public:

@@ -1,5 +1,4 @@
 #pragma once
-#include <cstdlib>
 
 #include "spume/grid/field.hpp"
 #include "spume/grid/kernel_coupling.hpp"
@@ -12,12 +11,13 @@ namespace spume::grid {
 /// before it is sampled; S is symmetric, so the pair of operators stays adjoint, and away from no-slip walls
 /// it leaves a velocity on faces as free of divergence as it was.
 ///
-/// The cubic spline alone would be undone to fourth order by a = 1/6, b = 7/240. The values here are not
-/// derived: with them a film wave is nearest to the exact law from 8 to 64 cells a wavelength, in a linear
-/// theory that includes projection and flat triangles, and in simulated waves; see docs/decisions/0013.
+/// Across a film a = 1/8 undoes, to fourth order, the cubic spline (1 − θ²/6) and the wide means between
+/// faces and cells (1 + θ²/24, flow/wide_mean.hpp). b is not derived: with it a film wave is near the exact
+/// law from 8 to 64 cells a wavelength, in a linear theory that includes projection and flat triangles, and
+/// in simulated waves; see docs/decisions/0013.
 class Sharpening {
  public:
-  inline static const double a = std::getenv("SA") ? std::atof(std::getenv("SA")) : 0.14, b = std::getenv("SB") ? std::atof(std::getenv("SB")) : 0.06;
+  static constexpr double a = 0.125, b = 0.045;
 
   explicit Sharpening(const Grid& grid) : n_(grid.cells()), u_(grid, 1, 1), image_(grid) {}
 

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "spume/flow/wide_mean.hpp"
 #include "spume/grid/spectral_filter.hpp"
 #include "tests/unit/flow/smooth_flow.hpp"
 #include "tests/unit/flow/whole_flow.hpp"
@@ -80,18 +81,20 @@ TEST(NavierStokes, AGradientForceIsBalancedByPressureAlone) {
   EXPECT_LT(flow::max_speed(gas_flow), 0.01 * 20 * dt / gas.density);
 }
 
-/// Of a vector field: its centred divergence times h, root mean square over that of the field, and the part
-/// of Σ|u|² with a phase advance over 0.85 π a cell along some direction.
+/// Of a vector field: its divergence by wide differences times h, root mean square over that of the field,
+/// and the part of Σ|u|² with a phase advance over 0.85 π a cell along some direction.
 struct Roughness {
   double divergence, shortest_waves;
 };
 Roughness roughness_of(const grid::VectorField& u) {
   const grid::Grid& grid = u[0].grid();
-  const grid::Ghosted<1> x(u[0]), y(u[1]), z(u[2]);
+  const grid::Ghosted<2> x(u[0]), y(u[1]), z(u[2]);
   double divergence = 0, shortest = 0, all = 0;
   for_each_cell(grid, [&](int i, int j, int k) {
-    divergence += std::pow(0.5 * (x(i + 1, j, k) - x(i - 1, j, k) + y(i, j + 1, k) - y(i, j - 1, k) +
-                                  z(i, j, k + 1) - z(i, j, k - 1)),
+    const auto along = [](auto&& at) { return flow::wide_difference(at(-2), at(-1), at(1), at(2)); };
+    divergence += std::pow(along([&](int d) { return x(i + d, j, k); }) + along([&](int d) {
+                             return y(i, j + d, k);
+                           }) + along([&](int d) { return z(i, j, k + d); }),
                            2);
   });
   const auto is_short = [](const Vec3& theta) {
