@@ -9,6 +9,7 @@
 #include "spume/interface/clearance.hpp"
 #include "spume/interface/curved_triangles.hpp"
 #include "spume/interface/find_films.hpp"
+#include "spume/interface/grid_shift.hpp"
 #include "spume/interface/indicators.hpp"
 #include "spume/interface/lost_bubbles.hpp"
 #include "spume/interface/potentials.hpp"
@@ -32,6 +33,7 @@ PhasePotentials potentials_from(const grid::Grid& grid, mesh::FilmMesh films, co
                                 int n_phases, const ReconstructParameters& parameters, StageTimes& times) {
   const double h = grid.h(), variance = parameters.smoothing * h * h;
   step_in_advance(films, topology, variance / 10 + parameters.relaxation * h * h, h, n_phases);
+  undo_grid_shift(grid, topology, films);
   const auto midpoints = edge_midpoints(films, topology);
   const PhaseBlocks blocks = blocks_of_phases(grid, films, n_phases);
   auto indicators = smoothed_indicators(grid, films, midpoints, blocks, variance);

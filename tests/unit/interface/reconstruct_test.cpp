@@ -307,6 +307,21 @@ TEST(Reconstruct, KeepsAFilmThatCrossesTheBox) {
   EXPECT_NEAR(highest, 2.1 * h, 0.02 * h);
 }
 
+// By 0.003 h where that is not undone in advance.
+TEST(Reconstruct, DoesNotShiftAFlatFilmWhereverItLiesInItsCells) {
+  grid::Box box = testing::cube_box(24);
+  box.boundary[2] = grid::Boundary::Slip;
+  const grid::Grid grid(parallel::Communicator::world(), box);
+  for (const double height : {0.1, 0.2, 0.3, 0.4, 0.7}) {  // [h]
+    auto phases = testing::unset_phases(1);
+    const auto side = [&](mesh::Phase p, const Vec3& x) { return (p == 1 ? 1 : -1) * (x.z - height * h); };
+    auto films = construct(grid, side, phases, {}).films;
+    for (Vec3& x : films.position) x.z = height * h;
+    const auto result = reconstruct(grid, films, phases, {.conserve_volumes = false});
+    for (const Vec3& x : result.films.position) ASSERT_NEAR(x.z, height * h, 1e-3 * h) << height;
+  }
+}
+
 TEST(Reconstruct, OfNoFilmsIsNoFilms) {
   const grid::Grid grid(parallel::Communicator::world(), testing::cube_box(16));
   state::Phases phases;
