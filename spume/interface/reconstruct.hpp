@@ -18,7 +18,7 @@ namespace spume::interface {
 struct ReconstructParameters {
   double smoothing = 2.0;  ///< s/h², variance of the kernel
   double profile_floor =
-      0.3;                 ///< the profile is continued linearly where its slope falls below this × maximum
+      0.3;                  ///< the profile is continued linearly where its slope falls below this × maximum
   double relaxation = 0.4;  ///< time over which a new mesh relaxes [h²]; undone in advance for smooth shapes
   double smallest_bubble_cells = 2.5;  ///< pieces below (this × h)³ are not kept as bubbles of their own
   bool conserve_volumes = true;
