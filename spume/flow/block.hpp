@@ -9,7 +9,7 @@
 namespace spume::flow {
 
 /// Layers of ghosts around the owned cells: the predictor traces the cells next to the owned ones, whose
-/// fourth-order slopes reach two cells further.
+/// fourth-order slopes and pressure gradients reach two cells further.
 inline constexpr int margin = 3;
 
 using GhostedField = grid::Ghosted<margin>;

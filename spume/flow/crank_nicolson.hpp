@@ -8,7 +8,7 @@ namespace spume::flow {
 
 /// What accelerates the gas besides its own advection, at the old time level:
 ///   a = (f − ∇p^{n−½})/ρ + ν ∇²uⁿ [m/s²],
-/// ∇p by centred differences, ∇² the seven-point Laplacian. One component, of the owned cells and one layer
+/// ∇p by wide_difference(), ∇² the seven-point Laplacian. One component, of the owned cells and one layer
 /// around them; `u` and `body_force` are of that component.
 void explicit_acceleration(const grid::Grid& grid, const state::Gas& gas, int component,
                            const GhostedField& u, const GhostedField& pressure,

@@ -105,9 +105,9 @@ const StageTimes& NavierStokes::times() const {
 void NavierStokes::Implementation::mean_on_faces(const grid::Field& u, int c, BlockArray& face) {
   const BlockLayout layout(grid);
   const Index3 n = grid.cells();
-  const auto take_mean = [&](int j, int k, int n_faces, int layer) {
+  const auto take_mean = [&](int j, int k, int n_faces) {
     const auto cell = [&](int d) {
-      return c == 0 ? window.row(j, layer) + d : c == 1 ? window.row(j + d, layer) : window.row(j, k + d);
+      return c == 0 ? window.row(j, k) + d : c == 1 ? window.row(j + d, k) : window.row(j, k + d);
     };
     const double *before = cell(-2), *lower = cell(-1), *upper = cell(0), *after = cell(1);
     double* normal = face.first() + layout.offset(0, j, k - grid.z_begin());
@@ -117,9 +117,9 @@ void NavierStokes::Implementation::mean_on_faces(const grid::Field& u, int c, Bl
   window.open(u);
   for (int k = grid.z_begin(); k < grid.z_end(); ++k) {
     window.move_to(k);
-    for (int j = 0; j < (c == 1 ? n.j + 1 : n.j); ++j) take_mean(j, k, c == 0 ? n.i + 1 : n.i, k);
+    for (int j = 0; j < (c == 1 ? n.j + 1 : n.j); ++j) take_mean(j, k, c == 0 ? n.i + 1 : n.i);
   }
-  for (int j = 0; c == 2 && j < n.j; ++j) take_mean(j, grid.z_end(), n.i, grid.z_end());
+  for (int j = 0; c == 2 && j < n.j; ++j) take_mean(j, grid.z_end(), n.i);
 }
 
 void NavierStokes::film_velocity(const state::GasFlow& flow, grid::VectorField& on_faces) {

@@ -2,9 +2,9 @@
 
 namespace spume::flow {
 
-/// Value between b and c of four values a, b, c, d in a row, one cell apart: faces of cells, and cells of
-/// faces. It is the mean over a cell width about that place as fourth order makes it of means over cells,
-/// (7 (b + c) − (a + d))/12; of a wave of phase advance θ a cell it gives
+/// Value between b and c of four values a, b, c, d in a row, one cell apart, from cells to faces and from
+/// faces to cells: (7 (b + c) − (a + d))/12. Of means over cells it is the value at the place between, to
+/// fourth order; a wave of phase advance θ a cell it multiplies by
 ///   cos(θ/2) (4 − cos θ)/3 = 1 + θ²/24 + O(θ⁴).
 /// The plain mean of b and c smooths by −θ²/8, and makes a pressure gradient miss the direction of short
 /// waves; see docs/decisions/0005.

@@ -18,12 +18,13 @@ struct Continuation {
     on_wall = on_faces;
   }
   /// Places along the axis, ghosts counted, of the cells whose images are the g-th ghosts, counted from the
-  /// face, for w layers of ghosts and n inner places.
+  /// face, for w layers of ghosts and n inner places. The 0th above is a wall's own face where values lie on
+  /// faces: its sign is 0, and its place some cell's.
   int below(int g, int w, int n) const {
     return boundary == Boundary::Periodic ? w + n - 1 - g : w + g + (on_wall ? 1 : 0);
   }
   int above(int g, int w, int n) const {
-    return boundary == Boundary::Periodic ? w + g : w + n - 1 - g + (on_wall ? 1 : 0);
+    return boundary == Boundary::Periodic ? w + g : w + n - 1 - g + (on_wall && g > 0 ? 1 : 0);
   }
   /// The sign of the g-th ghosts above.
   double sign_above(int g) const { return on_wall && g == 0 ? 0 : sign; }

@@ -64,8 +64,8 @@ LayerWindow::LayerWindow(const Grid& grid, int reach, int beyond)
       below_(static_cast<std::size_t>((reach + beyond) * layer_size_)),
       above_(below_.size()),
       ring_(grid, reach) {
-  expects(reach >= 1 && beyond >= 0 && beyond <= 1 && reach + beyond <= 3,
-          "a window of one or two cells to either side");
+  expects((reach == 1 || reach == 2) && (beyond == 0 || beyond == 1),
+          "a window looks one or two cells to either side, and stands at most one layer outside");
 }
 
 void LayerWindow::open(const Field& f, int face_axis) {

@@ -11,10 +11,9 @@ namespace spume::grid {
 /// before it is sampled; S is symmetric, so the pair of operators stays adjoint, and away from no-slip walls
 /// it leaves a velocity on faces as free of divergence as it was.
 ///
-/// Across a film a = 1/8 undoes, to fourth order, the cubic spline (1 − θ²/6) and the wide means between
-/// faces and cells (1 + θ²/24, flow/wide_mean.hpp). b is not derived: with it a film wave is near the exact
-/// law from 8 to 64 cells a wavelength, in a linear theory that includes projection and flat triangles, and
-/// in simulated waves; see docs/decisions/0013.
+/// With a = 1/8 spline (1 − θ²/6), S and the wide means between faces and cells (1 + θ²/24, see
+/// flow/wide_mean.hpp) together are 1 + O(θ⁴) along an axis. b is chosen: with it a film wave is near the
+/// exact law from 8 to 64 cells a wavelength; see docs/decisions/0013.
 class Sharpening {
  public:
   static constexpr double a = 0.125, b = 0.045;

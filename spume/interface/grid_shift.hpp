@@ -12,8 +12,8 @@ namespace spume::interface {
 /// x from the lower corner of the box. A film found again from samples at cells lies off by that, whose first
 /// part is what is sampled of its shortest waves, and second that a cubic through four cells sees where
 /// distances are cut off. b is at most 0.0037 h, for smoothing over 2 h² and the profile's floor of 0.3 (the
-/// values of ReconstructParameters); what is left is 0.0008 h for films along the grid. Table and its
-/// computation: docs/decisions/0002.
+/// values of ReconstructParameters); what is left is 0.0008 h for films along the grid. Computed for
+/// normals in a plane of the grid by tools/grid_shift.py; see docs/decisions/0002.
 void undo_grid_shift(const grid::Grid& grid, const mesh::Topology& topology, mesh::FilmMesh& films);
 
 }  // namespace spume::interface

@@ -33,7 +33,9 @@ PhasePotentials potentials_from(const grid::Grid& grid, mesh::FilmMesh films, co
                                 int n_phases, const ReconstructParameters& parameters, StageTimes& times) {
   const double h = grid.h(), variance = parameters.smoothing * h * h;
   step_in_advance(films, topology, variance / 10 + parameters.relaxation * h * h, h, n_phases);
-  undo_grid_shift(grid, topology, films);
+  const ReconstructParameters known;  // the shift is that of these
+  if (parameters.smoothing == known.smoothing && parameters.profile_floor == known.profile_floor)
+    undo_grid_shift(grid, topology, films);
   const auto midpoints = edge_midpoints(films, topology);
   const PhaseBlocks blocks = blocks_of_phases(grid, films, n_phases);
   auto indicators = smoothed_indicators(grid, films, midpoints, blocks, variance);

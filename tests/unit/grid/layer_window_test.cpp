@@ -68,6 +68,10 @@ TEST_P(LayerWindowOn, ValuesOnFacesGoOnAsAnOddFunctionAboutWallsThatHoldZero) {
       for (int j = 0; j < n.j; ++j)
         for (int i = 0; i < n.i; ++i) face(i, j, k) = Index3{i, j, k}[axis];
     LayerWindow window(grid, 2);
+    Field lost(grid);
+    lost.fill(std::numeric_limits<double>::quiet_NaN());
+    window.open(lost);
+    for (int k = window.first(); k <= window.last(); ++k) window.move_to(k);
     window.open(f, axis);
     const auto at = [&](int place) {  // along the axis
       return axis == 0   ? window.row(0, grid.z_begin())[place]

@@ -309,17 +309,28 @@ TEST(Reconstruct, KeepsAFilmThatCrossesTheBox) {
 
 // By 0.003 h where that is not undone in advance.
 TEST(Reconstruct, DoesNotShiftAFlatFilmWhereverItLiesInItsCells) {
-  grid::Box box = testing::cube_box(24);
-  box.boundary[2] = grid::Boundary::Slip;
-  const grid::Grid grid(parallel::Communicator::world(), box);
-  for (const double height : {0.1, 0.2, 0.3, 0.4, 0.7}) {  // [h]
-    auto phases = testing::unset_phases(1);
-    const auto side = [&](mesh::Phase p, const Vec3& x) { return (p == 1 ? 1 : -1) * (x.z - height * h); };
-    auto films = construct(grid, side, phases, {}).films;
-    for (Vec3& x : films.position) x.z = height * h;
-    const auto result = reconstruct(grid, films, phases, {.conserve_volumes = false});
-    for (const Vec3& x : result.films.position) ASSERT_NEAR(x.z, height * h, 1e-3 * h) << height;
-  }
+  for (const int axis : {0, 2})
+    for (const double sign : {1.0, -1.0}) {
+      grid::Box box = testing::cube_box(24);
+      box.boundary[axis] = grid::Boundary::Slip;
+      const Vec3 offset = 0.37 * h * Vec3{1, 1, 1};
+      box.lower += offset;
+      box.upper += offset;
+      const grid::Grid grid(parallel::Communicator::world(), box);
+      for (const double height : {0.1, 0.2, 0.3, 0.4, 0.7}) {  // [h], above a face of the cells
+        const double place = height * h + offset[axis];
+        auto phases = testing::unset_phases(1);
+        const auto side = [&](mesh::Phase p, const Vec3& x) {
+          return (p == 1 ? sign : -sign) * (x[axis] - place);
+        };
+        auto films = construct(grid, side, phases, {}).films;
+        for (Vec3& x : films.position) x[axis] = place;
+        const auto result = reconstruct(grid, films, phases, {.conserve_volumes = false});
+        ASSERT_FALSE(result.films.position.empty());
+        for (const Vec3& x : result.films.position)
+          ASSERT_NEAR(x[axis], place, 1e-3 * h) << axis << " " << sign << " " << height;
+      }
+    }
 }
 
 TEST(Reconstruct, OfNoFilmsIsNoFilms) {
