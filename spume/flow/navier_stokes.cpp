@@ -106,10 +106,8 @@ void NavierStokes::Implementation::mean_on_faces(const grid::Field& u, int c, Bl
   const BlockLayout layout(grid);
   const Index3 n = grid.cells();
   const auto take_mean = [&](int j, int k, int n_faces) {
-    const auto cell = [&](int d) {
-      return c == 0 ? window.row(j, k) + d : c == 1 ? window.row(j + d, k) : window.row(j, k + d);
-    };
-    const double *before = cell(-2), *lower = cell(-1), *upper = cell(0), *after = cell(1);
+    const double *before = window.row(j, k, c, -2), *lower = window.row(j, k, c, -1),
+                 *upper = window.row(j, k), *after = window.row(j, k, c, 1);
     double* normal = face.first() + layout.offset(0, j, k - grid.z_begin());
 #pragma GCC ivdep
     for (int i = 0; i < n_faces; ++i) normal[i] = wide_mean(before[i], lower[i], upper[i], after[i]);

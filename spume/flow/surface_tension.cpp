@@ -32,10 +32,8 @@ void ForceSpreader::spread(const mesh::FilmMesh& films, const FilmForces& forces
     for (int k = grid.z_begin(); k < grid.z_end(); ++k) {
       window_.move_to(k);
       for (int j = 0; j < n.j; ++j, to += n.i) {
-        const auto face = [&](int d) {
-          return c == 0 ? window_.row(j, k) + d : c == 1 ? window_.row(j + d, k) : window_.row(j, k + d);
-        };
-        const double *before = face(-1), *lower = face(0), *upper = face(1), *after = face(2);
+        const double *before = window_.row(j, k, c, -1), *lower = window_.row(j, k),
+                     *upper = window_.row(j, k, c, 1), *after = window_.row(j, k, c, 2);
 #pragma GCC ivdep
         for (int i = 0; i < n.i; ++i) to[i] = wide_mean(before[i], lower[i], upper[i], after[i]);
       }

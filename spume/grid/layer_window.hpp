@@ -60,6 +60,10 @@ class LayerWindow {
   /// to layer k now.
   void move_to(int k);
   const double* row(int j, int k) const { return ring_.row(j, k); }
+  /// The row `offset` cells further along `axis`.
+  const double* row(int j, int k, int axis, int offset) const {
+    return axis == 0 ? row(j, k) + offset : axis == 1 ? row(j + offset, k) : row(j, k + offset);
+  }
   std::ptrdiff_t stride_y() const { return ring_.stride_y(); }
   /// How the field goes on across its boundaries.
   const std::array<Continuation, 3>& continuation() const { return continuation_; }
